@@ -1,0 +1,5 @@
+//! The `rayscope` program.
+
+fn main() -> std::process::ExitCode {
+    rayscope::cli::main()
+}

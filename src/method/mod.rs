@@ -1,0 +1,197 @@
+//! The quadratic At² + Bt + C = 0, and the ways to evaluate it in floating point.
+//!
+//! The rest of the program asks a [`Method`] and gets a [`Solution`]; it never works the formula
+//! itself. Each method has a file of its own.
+
+mod textbook;
+
+use std::fmt;
+
+use crate::geometry::{Ray, Sphere};
+
+/// One way to evaluate the quadratic.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Method {
+    /// B² − 4AC and (−B ± √Δ)/2A in binary32, operation for operation as in the tutorial.
+    #[default]
+    Textbook,
+}
+
+impl Method {
+    /// All methods, in the order in which lists show them.
+    pub const ALL: [Self; 1] = [Self::Textbook];
+
+    /// The name on the command line, in files and on the screen.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Textbook => "textbook",
+        }
+    }
+
+    /// The method of that name.
+    pub fn by_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|m| m.name() == name)
+    }
+
+    /// Where the line of `ray` meets `sphere`.
+    pub fn solve(self, ray: &Ray, sphere: &Sphere) -> Solution {
+        match self {
+            Self::Textbook => textbook::solve(ray, sphere),
+        }
+    }
+
+    /// A, B, C and Δ as this method's own arithmetic has them.
+    pub fn coefficients(self, ray: &Ray, sphere: &Sphere) -> Coefficients {
+        match self {
+            Self::Textbook => textbook::coefficients(ray, sphere),
+        }
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// What the sign of Δ says of the whole line, not only of the part before the eye.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Class {
+    /// Δ < 0: no point in common.
+    Miss,
+    /// Δ = 0: the line touches the sphere in one point.
+    Tangent,
+    /// Δ > 0: the line crosses the sphere in two points.
+    Secant,
+    /// The method's discriminant is not a number, so it has no answer.
+    Nan,
+}
+
+impl Class {
+    /// The class that the sign of a discriminant gives.
+    pub fn of_discriminant(discriminant: f64) -> Self {
+        if discriminant < 0.0 {
+            Self::Miss
+        } else if discriminant == 0.0 {
+            Self::Tangent
+        } else if discriminant > 0.0 {
+            Self::Secant
+        } else {
+            Self::Nan
+        }
+    }
+
+    /// The word on the screen and in files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Miss => "miss",
+            Self::Tangent => "tangent",
+            Self::Secant => "secant",
+            Self::Nan => "nan",
+        }
+    }
+
+    /// Whether the line has a point in common with the sphere; a tangent has.
+    pub const fn meets(self) -> bool {
+        matches!(self, Self::Tangent | Self::Secant)
+    }
+}
+
+impl fmt::Display for Class {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
+    }
+}
+
+/// Where a sphere lies that the line meets, seen from the ray's start.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Place {
+    /// 0 < near: in front of the eye.
+    Hit,
+    /// near ≤ 0 < far: the eye is inside the sphere, or on it and looking in.
+    Inside,
+    /// far ≤ 0: the sphere is behind the eye; the line meets it, the ray does not.
+    Behind,
+}
+
+impl Place {
+    /// The word on the screen and in files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Hit => "hit",
+            Self::Inside => "inside",
+            Self::Behind => "behind",
+        }
+    }
+}
+
+/// What a method answers: the class and both roots in binary32.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Solution {
+    /// Miss, tangent or secant of the line.
+    pub class: Class,
+    /// The smaller root t; NaN where there is none, ±∞ past the range of binary32.
+    pub near: f32,
+    /// The larger root t; equal to `near` for a tangent.
+    pub far: f32,
+}
+
+impl Solution {
+    /// The answer that the line does not meet the sphere.
+    pub const MISS: Self = Self::without_roots(Class::Miss);
+
+    /// An answer of a class that has no roots.
+    pub const fn without_roots(class: Class) -> Self {
+        Self {
+            class,
+            near: f32::NAN,
+            far: f32::NAN,
+        }
+    }
+
+    /// Where the sphere lies, or nothing if the line misses it.
+    pub fn place(&self) -> Option<Place> {
+        if !self.class.meets() {
+            None
+        } else if self.near > 0.0 {
+            Some(Place::Hit)
+        } else if self.far > 0.0 {
+            Some(Place::Inside)
+        } else {
+            Some(Place::Behind)
+        }
+    }
+
+    /// The visible root: the least t > 0.
+    pub fn visible(&self) -> Option<f32> {
+        match self.place()? {
+            Place::Hit => Some(self.near),
+            Place::Inside => Some(self.far),
+            Place::Behind => None,
+        }
+    }
+}
+
+/// The precision in which a method holds its coefficients.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Precision {
+    /// 24 bits.
+    Binary32,
+    /// 53 bits.
+    Binary64,
+}
+
+/// A, B, C and Δ = B² − 4AC, each a number of the given precision.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coefficients {
+    /// In which precision the four are held; binary32 values stand here exactly.
+    pub precision: Precision,
+    /// A = d·d.
+    pub a: f64,
+    /// B = 2 d·(p0 − c).
+    pub b: f64,
+    /// C = (p0 − c)·(p0 − c) − r².
+    pub c: f64,
+    /// Δ = B² − 4AC.
+    pub discriminant: f64,
+}

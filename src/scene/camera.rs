@@ -1,0 +1,327 @@
+//! The eye: position, orientation and projection, and the rays that it makes for the pixels.
+
+use std::fmt;
+
+use glam::{DVec3, Vec3};
+
+use crate::geometry::{Invalid, Ray};
+
+/// How pixels become rays.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Projection {
+    /// Parallel rays through a window of this width and height, in units of the world.
+    Orthographic {
+        /// Width and height seen.
+        extent: [f32; 2],
+    },
+    /// Rays that start at one point.
+    Perspective {
+        /// The vertical angle seen, in degrees, between 0 and 180.
+        field_of_view: f32,
+    },
+}
+
+/// The eye. The world is right-handed: right = forward × up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Camera {
+    /// Orthographic or perspective.
+    pub projection: Projection,
+    /// Where the eye is: the centre of the window (orthographic) or the start of all rays.
+    pub position: Vec3,
+    /// The point that appears at the centre of the picture, and about which the camera orbits.
+    pub look_at: Vec3,
+    /// The direction that points up on the screen; need not be perpendicular to the view.
+    pub up: Vec3,
+}
+
+/// Right, down and forward of the screen: unit vectors, each perpendicular to the others.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Basis {
+    /// Towards greater x on the screen.
+    pub right: DVec3,
+    /// Towards greater y on the screen.
+    pub down: DVec3,
+    /// Into the screen.
+    pub forward: DVec3,
+}
+
+impl Camera {
+    /// Refuses a camera that looks nowhere or sees nothing, naming the key of the scene file.
+    pub fn check(&self) -> Result<(), Invalid> {
+        for (name, v) in [
+            ("position", self.position),
+            ("look_at", self.look_at),
+            ("up", self.up),
+        ] {
+            if !v.is_finite() {
+                return Err(Invalid::new(name, v, "three finite numbers"));
+            }
+        }
+        match self.projection {
+            Projection::Orthographic { extent } => {
+                if !extent.iter().all(|e| e.is_finite() && *e > 0.0) {
+                    let found = format!("[{}, {}]", extent[0], extent[1]);
+                    return Err(Invalid::new("extent", found, "two finite numbers above 0"));
+                }
+            }
+            Projection::Perspective { field_of_view } => {
+                if !(field_of_view > 0.0 && field_of_view < 180.0) {
+                    return Err(Invalid::new(
+                        "field_of_view",
+                        field_of_view,
+                        "an angle in degrees above 0 and below 180",
+                    ));
+                }
+            }
+        }
+        if self.look_at == self.position {
+            return Err(Invalid::new(
+                "look_at",
+                self.look_at,
+                "a point other than the camera's position",
+            ));
+        }
+        if self.try_basis().is_none() {
+            return Err(Invalid::new(
+                "up",
+                self.up,
+                "a direction other than zero and other than the one the camera looks in",
+            ));
+        }
+        Ok(())
+    }
+
+    fn try_basis(&self) -> Option<Basis> {
+        let forward = unit(self.look_at.as_dvec3() - self.position.as_dvec3())?;
+        let across = forward.cross(unit(self.up.as_dvec3())?);
+        if across.length() < LEAST_SINE {
+            return None;
+        }
+        let right = unit(across)?;
+        let down = forward.cross(right);
+        Some(Basis {
+            right,
+            down,
+            forward,
+        })
+    }
+
+    /// The axes of the screen in the world. The camera must have passed [`Camera::check`].
+    pub fn basis(&self) -> Basis {
+        self.try_basis().unwrap_or(Basis {
+            right: DVec3::X,
+            down: DVec3::NEG_Y,
+            forward: DVec3::NEG_Z,
+        })
+    }
+}
+
+/// How far `up` must turn away from the view: the sine of the angle between them. Below this the
+/// orientation would hang on the last bits of the numbers in the file.
+const LEAST_SINE: f64 = 1e-9;
+
+/// The unit vector along `v`, of whatever length; none if `v` is zero.
+fn unit(v: DVec3) -> Option<DVec3> {
+    let scale = v.abs().max_element();
+    if scale == 0.0 {
+        return None;
+    }
+    let v = v / scale;
+    Some(v / v.length())
+}
+
+/// A number of pixels across and down.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Size {
+    /// Pixels in a row.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+}
+
+impl Size {
+    /// A size of `width` by `height`.
+    pub const fn new(width: u32, height: u32) -> Self {
+        Self { width, height }
+    }
+
+    /// Number of pixels.
+    pub const fn area(self) -> usize {
+        self.width as usize * self.height as usize
+    }
+}
+
+impl fmt::Display for Size {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}×{}", self.width, self.height)
+    }
+}
+
+/// What a pixel looks like where it is shown.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PixelShape {
+    /// The scene fixes the picture: its extent is divided by its pixels, wherever it is shown.
+    Own,
+    /// A pixel of a picture that fills its room is this many times as high as it is wide.
+    Aspect(f64),
+}
+
+/// The rays of all pixels of one picture: affine in the pixel, rounded once to binary32.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rays {
+    /// The picture.
+    pub size: Size,
+    /// Start of the ray at the centre of the picture.
+    pub origin: DVec3,
+    /// Direction of the ray at the centre of the picture.
+    pub direction: DVec3,
+    /// One pixel to the right: what is added to the direction (perspective) or the origin.
+    pub right: DVec3,
+    /// One pixel down, likewise.
+    pub down: DVec3,
+    /// Whether the pixel moves the direction (perspective) rather than the origin.
+    pub perspective: bool,
+}
+
+impl Rays {
+    /// The rays of a picture of `size` pixels of the given shape.
+    ///
+    /// With a shape of its own the picture shows exactly the camera's extent; in a room of
+    /// another shape at least that. A field of view is always the height of the picture.
+    pub fn new(camera: &Camera, size: Size, shape: PixelShape) -> Self {
+        let Basis {
+            right,
+            down,
+            forward,
+        } = camera.basis();
+        let [w, h] = [size.width.max(1) as f64, size.height.max(1) as f64];
+        let (perspective, [dx, dy]) = match camera.projection {
+            Projection::Orthographic { extent } => {
+                let [ew, eh] = extent.map(f64::from);
+                let step = match shape {
+                    PixelShape::Own => [ew / w, eh / h],
+                    PixelShape::Aspect(aspect) => {
+                        let dx = (ew / w).max(eh / h / aspect);
+                        [dx, dx * aspect]
+                    }
+                };
+                (false, step)
+            }
+            Projection::Perspective { field_of_view } => {
+                let dy = 2.0 * (f64::from(field_of_view) / 2.0).to_radians().tan() / h;
+                let dx = match shape {
+                    PixelShape::Own => dy,
+                    PixelShape::Aspect(aspect) => dy / aspect,
+                };
+                (true, [dx, dy])
+            }
+        };
+        Self {
+            size,
+            origin: camera.position.as_dvec3(),
+            direction: forward,
+            right: right * dx,
+            down: down * dy,
+            perspective,
+        }
+    }
+
+    /// The ray of pixel (x, y), counted from 0 at the top left.
+    ///
+    /// It passes through the point (x − (W−1)/2, y − (H−1)/2), in pixel steps right and down from
+    /// the centre.
+    pub fn ray(&self, x: u32, y: u32) -> Ray {
+        let u = f64::from(x) - (f64::from(self.size.width) - 1.0) / 2.0;
+        let v = f64::from(y) - (f64::from(self.size.height) - 1.0) / 2.0;
+        let shift = u * self.right + v * self.down;
+        let (origin, direction) = if self.perspective {
+            (self.origin, self.direction + shift)
+        } else {
+            (self.origin + shift, self.direction)
+        };
+        Ray {
+            origin: origin.as_vec3(),
+            direction: direction.as_vec3(),
+        }
+    }
+
+    /// The pixel, in fractions from 0 at the middle of the top left one, that shows the point `p`;
+    /// none for a point at or behind a perspective eye.
+    pub fn project(&self, p: DVec3) -> Option<[f64; 2]> {
+        let from_eye = p - self.origin;
+        let depth = if self.perspective {
+            let depth = from_eye.dot(self.direction);
+            if depth <= 0.0 {
+                return None;
+            }
+            depth
+        } else {
+            1.0
+        };
+        let along = |step: DVec3| from_eye.dot(step) / (depth * step.length_squared());
+        Some([
+            along(self.right) + (f64::from(self.size.width) - 1.0) / 2.0,
+            along(self.down) + (f64::from(self.size.height) - 1.0) / 2.0,
+        ])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tutorial() -> Camera {
+        Camera {
+            projection: Projection::Orthographic {
+                extent: [40.0, 40.0],
+            },
+            position: Vec3::new(19.5, 19.5, 0.0),
+            look_at: Vec3::new(19.5, 19.5, 20.0),
+            up: Vec3::NEG_Y,
+        }
+    }
+
+    #[test]
+    fn the_tutorials_pixels_start_where_they_say() {
+        let rays = Rays::new(&tutorial(), Size::new(40, 40), PixelShape::Own);
+        for (x, y) in [(0, 0), (20, 20), (39, 0), (13, 37)] {
+            let ray = rays.ray(x, y);
+            assert_eq!(ray.origin, Vec3::new(x as f32, y as f32, 0.0));
+            assert_eq!(ray.direction, Vec3::Z);
+        }
+    }
+
+    #[test]
+    fn a_point_on_a_ray_projects_to_its_pixel() {
+        let perspective = Camera {
+            projection: Projection::Perspective {
+                field_of_view: 50.0,
+            },
+            position: Vec3::new(3.0, -2.0, 9.0),
+            look_at: Vec3::new(0.5, 0.25, -1.0),
+            up: Vec3::Y,
+        };
+        for camera in [tutorial(), perspective] {
+            let rays = Rays::new(&camera, Size::new(31, 17), PixelShape::Aspect(2.0));
+            for (x, y) in [(0, 0), (30, 16), (7, 11)] {
+                let at = rays.project(rays.ray(x, y).at(5.0).as_dvec3()).unwrap();
+                assert!((at[0] - f64::from(x)).abs() < 1e-4, "{at:?}");
+                assert!((at[1] - f64::from(y)).abs() < 1e-4, "{at:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_camera_that_looks_nowhere_is_refused_by_key() {
+        let said = |change: fn(&mut Camera)| {
+            let mut camera = tutorial();
+            change(&mut camera);
+            camera.check().unwrap_err().field
+        };
+        assert!(tutorial().check().is_ok());
+        assert_eq!(said(|c| c.look_at = c.position), "look_at");
+        assert_eq!(said(|c| c.up = Vec3::Z), "up");
+        assert_eq!(said(|c| c.up = Vec3::ZERO), "up");
+        assert_eq!(said(|c| c.position.x = f32::NAN), "position");
+    }
+}
