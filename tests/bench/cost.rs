@@ -91,7 +91,7 @@ fn main() {
             }
         }
         let mut ratios: Vec<f64> = times[2].iter().zip(&times[0]).map(|(x, t)| x / t).collect();
-        let worst = worst(&rays[..256]);
+        let worst = worst(&rays);
         print!("{:18}", family.name);
         for times in &mut times {
             print!("{:10.1}", median(times));

@@ -13,9 +13,9 @@ mod binary64;
 mod double_double;
 mod error_free;
 mod integer;
-mod plain;
 mod real;
 mod rounding;
+mod whole;
 
 use std::cmp::Ordering;
 use std::fmt;
@@ -27,18 +27,20 @@ use crate::geometry::{Ray, Sphere};
 use binary64::Input;
 use double_double::Doubled;
 use integer::Exact;
-use plain::Plain;
 use rounding::{Quadratic, Which};
+use whole::Whole;
 
 /// The ways of `exact`, in the order in which they are tried.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Stage {
     /// Stage 1: binary64, with the class certified and the roots by (−b ± s)/A.
     Binary64,
+    /// Stage 1 for small whole numbers, for which it rounds nothing but √ and ÷.
+    Unrounded,
     /// Still binary64: C with its rounding errors added back, the roots by q and certified bounds.
     Compensated,
-    /// The short way for small whole numbers: integers of 64 and 128 bits.
-    Plain,
+    /// A short way for whole numbers of up to 30 bits: integers of 64 and 128 bits.
+    Whole,
     /// Stage 2: numbers of about 106 bits, with certified bounds.
     DoubleDouble,
     /// Stage 3: integers of 576 and 1152 bits, exact for every input.
@@ -47,10 +49,11 @@ pub enum Stage {
 
 impl Stage {
     /// All stages, in the order in which they are tried.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Binary64,
+        Self::Unrounded,
         Self::Compensated,
-        Self::Plain,
+        Self::Whole,
         Self::DoubleDouble,
         Self::Integer,
     ];
@@ -59,8 +62,9 @@ impl Stage {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Binary64 => "binary64",
+            Self::Unrounded => "unrounded",
             Self::Compensated => "compensated",
-            Self::Plain => "plain",
+            Self::Whole => "whole",
             Self::DoubleDouble => "double-double",
             Self::Integer => "integer",
         }
@@ -187,8 +191,8 @@ pub fn coefficients(ray: &Ray, sphere: &Sphere) -> Coefficients {
     let input = Input::new(ray, sphere);
     let Estimate {
         a, half_b, c, d, ..
-    } = match Plain::of(&input) {
-        Some(plain) => plain.estimate(),
+    } = match Whole::of(&input) {
+        Some(whole) => whole.estimate(),
         None => Exact::new(&input).estimate(),
     };
     Coefficients {
@@ -268,7 +272,9 @@ fn settle(
 }
 
 /// What a stage finds for the parts still open; none if it has nothing to say of this input.
-#[inline(always)]
+///
+/// Each stage is a function of its own, never inlined: the compiler would find its first steps
+/// independent of the loop over stages, and take all of them for every ray.
 fn ask(
     stage: Stage,
     input: &Input<f64>,
@@ -277,14 +283,16 @@ fn ask(
 ) -> Option<Findings> {
     match stage {
         Stage::Binary64 => Some(in_binary64(input, discriminant)),
+        Stage::Unrounded => unrounded(input, discriminant),
         Stage::Compensated => compensated(input, discriminant),
-        Stage::Plain => Plain::of(input).map(|plain| consult(stage, &plain, open)),
-        Stage::DoubleDouble => Some(consult(stage, &Doubled::new(input), open)),
-        Stage::Integer => Some(consult(stage, &Exact::new(input), open)),
+        Stage::Whole => whole(input, open),
+        Stage::DoubleDouble => Some(double_double(input, open)),
+        Stage::Integer => Some(integer(input, open)),
     }
 }
 
 /// Stage 1, as [`solve`] runs it.
+#[inline(never)]
 fn in_binary64(input: &Input<f64>, discriminant: &Discriminant<f64>) -> Findings {
     let class = discriminant.class();
     Findings {
@@ -313,7 +321,16 @@ fn settled(direct: &Direct<f64>, discriminant: &Discriminant<f64>) -> [Option<f3
     })
 }
 
+#[inline(never)]
+fn unrounded(input: &Input<f64>, discriminant: &Discriminant<f64>) -> Option<Findings> {
+    let estimate = whole::unrounded(input, discriminant)?;
+    let sign = estimate.d.partial_cmp(&0.0);
+    let settle = |_, bounded| rounding::by_bound(bounded);
+    Some(consult(Stage::Unrounded, sign, estimate, settle))
+}
+
 /// Binary64 once more, with the better C, if roots are what was left open.
+#[inline(never)]
 fn compensated(input: &Input<f64>, discriminant: &Discriminant<f64>) -> Option<Findings> {
     let class = discriminant.class()?;
     let estimate = binary64::compensated(input, discriminant);
@@ -333,10 +350,45 @@ fn settled_by_bound(bounded: Bounded<f64>) -> Root {
     }
 }
 
-/// What a stage beyond binary64 knows of the parts still open.
-fn consult(stage: Stage, quadratic: &impl Quadratic, open: &Answer) -> Findings {
-    let estimate = quadratic.estimate();
-    let class = quadratic.discriminant().map(|sign| match sign {
+#[inline(never)]
+fn whole(input: &Input<f64>, open: &Answer) -> Option<Findings> {
+    Whole::of(input).map(|whole| ask_for_signs(Stage::Whole, &whole, open))
+}
+
+#[inline(never)]
+fn double_double(input: &Input<f64>, open: &Answer) -> Findings {
+    ask_for_signs(Stage::DoubleDouble, &Doubled::new(input), open)
+}
+
+#[inline(never)]
+fn integer(input: &Input<f64>, open: &Answer) -> Findings {
+    ask_for_signs(Stage::Integer, &Exact::new(input), open)
+}
+
+/// What a stage that can answer questions of sign knows of the parts still open.
+fn ask_for_signs(stage: Stage, quadratic: &impl Quadratic, open: &Answer) -> Findings {
+    let (sign, estimate) = (quadratic.discriminant(), quadratic.estimate());
+    consult(stage, sign, estimate, |which, bounded| {
+        let known = match which {
+            Which::Near => open.near,
+            Which::Far => open.far,
+        };
+        match known {
+            Some(_) => None,
+            None => rounding::by_signs(which, bounded, quadratic),
+        }
+    })
+}
+
+/// What follows from the sign of D, the estimates, and a way to round.
+#[inline(always)]
+fn consult(
+    stage: Stage,
+    sign: Option<Ordering>,
+    estimate: Estimate<f64>,
+    settle: impl Fn(Which, Bounded<f64>) -> Option<f32>,
+) -> Findings {
+    let class = sign.map(|sign| match sign {
         Ordering::Less => Class::Miss,
         Ordering::Equal => Class::Tangent,
         Ordering::Greater => Class::Secant,
@@ -346,12 +398,9 @@ fn consult(stage: Stage, quadratic: &impl Quadratic, open: &Answer) -> Findings 
         Some(Class::Tangent) => Some(binary64::double_root(&estimate)),
         _ => None,
     };
-    let settled = |which, bounded, known: Option<(f32, Stage)>| Root {
+    let root = |which, bounded| Root {
         bounded,
-        settled: match known {
-            Some(_) => None,
-            None => rounding::by_signs(which, bounded, quadratic),
-        },
+        settled: settle(which, bounded),
     };
     Findings {
         stage,
@@ -359,8 +408,8 @@ fn consult(stage: Stage, quadratic: &impl Quadratic, open: &Answer) -> Findings 
         estimate: Some(estimate),
         roots: roots.map(|roots| {
             [
-                settled(Which::Near, roots.near(), open.near),
-                settled(Which::Far, roots.far(), open.far),
+                root(Which::Near, roots.near()),
+                root(Which::Far, roots.far()),
             ]
         }),
     }
