@@ -6,6 +6,7 @@
 mod citardauq;
 mod double;
 mod dyadic;
+pub mod format;
 mod haines;
 mod kahan;
 mod number;
