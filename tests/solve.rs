@@ -207,3 +207,122 @@ fn a_reader_that_has_enough_ends_the_batch_quietly() {
     assert_eq!(said, "");
     assert!(child.wait().unwrap().success());
 }
+
+const TUTORIAL: [&str; 4] = ["--ray", "20,20,0,0,0,1", "--sphere", "20,20,20,10"];
+
+#[test]
+fn one_intersection_is_worked_out_as_in_the_tutorial() {
+    let run = solve(&[&TUTORIAL[..], &["--method", "textbook"]].concat(), "");
+    assert_eq!((run.status, run.err.as_str()), (0, ""));
+    for line in [
+        "A = d·d\n  = 0² + 0² + 1²\n  = 1\n",
+        "  = 2·(0·0 + 0·0 + 1·(−20))\n  = −40\n",
+        "C = |o|² − r²\n  = 400 − 100\n  = 300\n",
+        "Δ = B² − 4AC\n  = 1600 − 1200\n  = 400\n",
+        "secant  Δ > 0: the line crosses the sphere in two points\n",
+        "near = 10, exactly\nfar = 30, exactly\n",
+        "hit: the ray sees it at t = 10\n",
+    ] {
+        assert!(run.out.contains(line), "{line} is not in {}", run.out);
+    }
+}
+
+#[test]
+fn a_wrong_class_is_said_in_words() {
+    let far = [
+        "--ray=-4100,0.5,0,1,0,0",
+        "--sphere=0,0,0,1",
+        "--method=textbook",
+    ];
+    let run = solve(&far, "");
+    assert_eq!(run.status, 0);
+    assert!(run.out.contains(
+        "WRONG: textbook says tangent, but the line crosses the sphere: exactly, Δ is 3 and not 0."
+    ));
+}
+
+#[test]
+fn json_has_the_answer_the_coefficients_and_the_steps() {
+    let run = solve(
+        &[&TUTORIAL[..], &["--format=json", "--method=textbook"]].concat(),
+        "",
+    );
+    assert_eq!((run.status, run.err.as_str()), (0, ""));
+    let found: serde_json::Value = serde_json::from_str(&run.out).unwrap();
+    for (pointer, value) in [
+        ("/class", "\"secant\""),
+        ("/near", "10.0"),
+        ("/far", "30.0"),
+        ("/place", "\"hit\""),
+        ("/visible", "10.0"),
+        ("/precision", "\"binary32\""),
+        ("/discriminant/value", "400.0"),
+        ("/discriminant/exact", "\"400\""),
+        ("/roots/near/ulps", "0.0"),
+        ("/truth/class", "\"secant\""),
+        ("/verdict", "null"),
+        ("/steps/8/symbol", "\"Δ\""),
+        ("/steps/8/numbers", "\"1600 − 1200\""),
+        ("/ray/direction", "[0.0,0.0,1.0]"),
+    ] {
+        let at = found.pointer(pointer).map(ToString::to_string);
+        assert_eq!(at.as_deref(), Some(value), "{pointer}");
+    }
+    let nan = [
+        "--ray=-3e20,0,0,1,0,0",
+        "--sphere=0,0,0,1e20",
+        "--format=json",
+    ];
+    let run = solve(&[&nan[..], &["--method=textbook"]].concat(), "");
+    let found: serde_json::Value = serde_json::from_str(&run.out).unwrap();
+    assert_eq!(found["class"], "nan");
+    assert_eq!(found["near"], "NaN");
+    assert_eq!(found["c"]["value"], "NaN");
+    assert_eq!(found["truth"]["far"].as_f64(), Some(4e20));
+}
+
+#[test]
+fn negative_numbers_need_no_equals_sign() {
+    let run = solve(&["--ray", "-3,0,0,1,0,0", "--sphere", "-0,0,0,1"], "");
+    assert_eq!(run.status, 0, "{}", run.err);
+    assert!(run.out.contains("near = 2"));
+}
+
+#[test]
+fn a_bad_number_is_named_and_a_bad_command_line_is_told_apart() {
+    for (ray, sphere, reason) in [
+        ("x,0,0,1,0,0", "0,0,0,1", "--ray, ox: `x` is not a number"),
+        ("0,0,0,0,0,0", "0,0,0,1", "--ray: d is 0,0,0"),
+        ("0,0,0,1,0,0", "0,0,0,-1", "--sphere: r is -1"),
+        ("0,0,0,1,0,0", "0,nan,0,1", "--sphere, cy: nan"),
+        ("0,0,0,1e39,0,0", "0,0,0,1", "--ray, dx: 1e39"),
+        ("0,0,0,1,0", "0,0,0,1", "5 numbers; expected 6"),
+    ] {
+        let run = solve(&["--ray", ray, "--sphere", sphere], "");
+        assert_eq!(run.status, 1);
+        assert_eq!(run.out, "");
+        assert!(
+            run.err.contains(reason),
+            "{} does not say {reason}",
+            run.err
+        );
+    }
+    let wrong: [&[&str]; 6] = [
+        &[],
+        &["--ray", "0,0,0,1,0,0"],
+        &["--sphere", "0,0,0,1"],
+        &[
+            "--ray",
+            "0,0,0,1,0,0",
+            "--sphere",
+            "0,0,0,1",
+            "--method",
+            "best",
+        ],
+        &["--batch", "-", "--format", "json"],
+        &["--batch", "-", "--ray", "0,0,0,1,0,0"],
+    ];
+    for arguments in wrong {
+        assert_eq!(solve(arguments, "").status, 2, "{arguments:?}");
+    }
+}

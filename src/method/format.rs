@@ -25,6 +25,21 @@ impl Signs {
         }
     }
 
+    /// A formula or a name as these signs write it: `B² − 4AC` or `B^2 - 4AC`, `Δ` or `disc`.
+    pub fn spell(self, text: &str) -> String {
+        if self == Self::Typographic {
+            return text.to_owned();
+        }
+        let mut spelt = String::with_capacity(text.len());
+        for c in text.chars() {
+            match ASCII.iter().find(|(sign, _)| *sign == c) {
+                Some((_, ascii)) => spelt += ascii,
+                None => spelt.push(c),
+            }
+        }
+        spelt
+    }
+
     const fn infinity(self) -> &'static str {
         match self {
             Self::Ascii => "inf",
@@ -39,6 +54,27 @@ impl Signs {
         }
     }
 }
+
+/// What stands for the signs of mathematics where there is only ASCII.
+const ASCII: [(char, &str); 17] = [
+    ('−', "-"),
+    ('·', "*"),
+    ('×', "x"),
+    ('±', "+-"),
+    ('√', "sqrt "),
+    ('²', "^2"),
+    ('Δ', "disc"),
+    ('‖', "|"),
+    ('≤', "<="),
+    ('≥', ">="),
+    ('≠', "!="),
+    ('∞', "inf"),
+    ('…', "..."),
+    ('–', "-"),
+    ('′', "'"),
+    ('₆', "6"),
+    ('₄', "4"),
+];
 
 /// A number as the shortest decimal that reads back as the same number of its precision.
 ///

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use glam::Vec3;
 
 use super::super::complain;
+use super::input::number;
 use super::rows::{Row, Rows, push_field};
 use crate::geometry::{Ray, Sphere};
 use crate::method::format::{self, Shortest, Signs};
@@ -252,27 +253,6 @@ impl Columns {
         let sphere = Sphere::new(Vec3::new(cx, cy, cz), r)
             .map_err(|e| format!("column r: {}; expected {}", e.found, e.expected))?;
         Ok((ray, sphere))
-    }
-}
-
-/// A decimal rounded once to binary32; refused with its text if it is none, or beyond the range.
-pub(super) fn number(field: &[u8]) -> Result<f32, String> {
-    let text = String::from_utf8_lossy(field.trim_ascii());
-    if text.is_empty() {
-        return Err("nothing there; expected a number".to_owned());
-    }
-    let shown = || text.chars().take(40).collect::<String>();
-    match text.parse::<f32>() {
-        Ok(x) if x.is_finite() => Ok(x),
-        Ok(x) if x.is_infinite() && text.contains(|c: char| c.is_ascii_digit()) => Err(format!(
-            "{} is past the range of binary32; expected at most 3.4028235e38",
-            shown()
-        )),
-        Ok(_) => Err(format!("{} is no finite number; expected one", shown())),
-        Err(_) => Err(format!(
-            "`{}` is not a number; expected one like -1.5e3",
-            shown()
-        )),
     }
 }
 
