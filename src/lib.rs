@@ -6,8 +6,10 @@
 //! * [`geometry`]: rays and spheres, plain data, checked where it comes in
 //! * [`method`]: the quadratic, and the ways to evaluate it
 //! * [`scene`]: spheres, camera, light; scene files; the built-in scenes
+//! * [`lab`]: families of rays to hold the methods against
 
 pub mod cli;
 pub mod geometry;
+pub mod lab;
 pub mod method;
 pub mod scene;

@@ -81,6 +81,9 @@ fn write_answer(out: &mut String, trace: &Trace, signs: Signs) -> fmt::Result {
                 Some(0.0) => writeln!(out, "{name} = {value}, exactly"),
                 Some(ulps) => {
                     let exact = root.exact_text(DIGITS, signs).unwrap_or_default();
+                    if root.is_correctly_rounded() {
+                        return writeln!(out, "{name} = {value}, {exact} rounded once");
+                    }
                     let ulps = trace::ulps_text(ulps, signs);
                     writeln!(out, "{name} = {value}, {ulps} ulp from {exact}")
                 }
