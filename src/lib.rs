@@ -6,8 +6,10 @@
 //! * [`geometry`]: rays and spheres, plain data, checked where it comes in
 //! * [`method`]: the quadratic, and the ways to evaluate it
 //! * [`scene`]: spheres, camera, light; scene files; the built-in scenes
+//! * [`render`]: rays → nearest hits → shade → glyphs: an image of cells
 
 pub mod cli;
 pub mod geometry;
 pub mod method;
+pub mod render;
 pub mod scene;
