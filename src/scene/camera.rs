@@ -140,6 +140,9 @@ pub struct Size {
 }
 
 impl Size {
+    /// The greatest width and the greatest height of a picture.
+    pub const LARGEST: u32 = 4096;
+
     /// A size of `width` by `height`.
     pub const fn new(width: u32, height: u32) -> Self {
         Self { width, height }

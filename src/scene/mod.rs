@@ -3,9 +3,15 @@
 //! A [`Scene`] is plain data that has been checked. Its camera makes rays; nothing here asks what
 //! they hit.
 
+mod builtin;
 mod camera;
+mod file;
+pub mod value;
+mod write;
 
+pub use builtin::Builtin;
 pub use camera::{Camera, PixelShape, Projection, Rays, Size};
+pub use file::{FileError, LARGEST_FILE, Position};
 
 use glam::Vec3;
 
