@@ -3,7 +3,14 @@
 //! The rest of the program asks a [`Method`] and gets a [`Solution`]; it never works the formula
 //! itself. Each method has a file of its own.
 
+mod dyadic;
+mod surd;
 mod textbook;
+mod truth;
+
+pub use dyadic::Dyadic;
+pub use surd::{Digits, Surd};
+pub use truth::{Truth, ulp_error};
 
 use std::fmt;
 
@@ -179,6 +186,32 @@ pub enum Precision {
     Binary32,
     /// 53 bits.
     Binary64,
+}
+
+impl Precision {
+    /// Bits of the significand, the leading one counted.
+    pub const fn bits(self) -> u32 {
+        match self {
+            Self::Binary32 => f32::MANTISSA_DIGITS,
+            Self::Binary64 => f64::MANTISSA_DIGITS,
+        }
+    }
+
+    /// log2 of the least subnormal number, which is the least spacing.
+    pub const fn least_exponent(self) -> i32 {
+        match self {
+            Self::Binary32 => f32::MIN_EXP - f32::MANTISSA_DIGITS as i32,
+            Self::Binary64 => f64::MIN_EXP - f64::MANTISSA_DIGITS as i32,
+        }
+    }
+
+    /// log2 of the greatest spacing, that of the numbers just below the range's end.
+    pub const fn greatest_exponent(self) -> i32 {
+        match self {
+            Self::Binary32 => f32::MAX_EXP - f32::MANTISSA_DIGITS as i32,
+            Self::Binary64 => f64::MAX_EXP - f64::MANTISSA_DIGITS as i32,
+        }
+    }
 }
 
 /// A, B, C and Δ = B² − 4AC, each a number of the given precision.
