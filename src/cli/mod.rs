@@ -1,5 +1,7 @@
 //! The command line: parses the arguments and calls the part that does the work.
 
+mod print;
+
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -13,10 +15,15 @@ struct Arguments {
 }
 
 #[derive(Debug, Subcommand)]
-enum Command {}
+enum Command {
+    Print(print::Print),
+}
 
 /// Runs the program with the arguments of this process.
 pub fn main() -> ExitCode {
-    let Arguments { command: None } = Arguments::parse();
-    ExitCode::SUCCESS
+    let Arguments { command } = Arguments::parse();
+    match command {
+        None => ExitCode::SUCCESS,
+        Some(Command::Print(arguments)) => print::run(&arguments),
+    }
 }

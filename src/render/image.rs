@@ -1,6 +1,7 @@
 //! The image: cells of a character and two colours, drawn from a frame in a style.
 
-use super::color::{color_of, dimmed};
+use super::color::color_of;
+use super::ramp::Ramps;
 use super::{ColorDepth, Contact, Frame, Style, View};
 use crate::scene::{Rgb, Scene};
 
@@ -49,7 +50,7 @@ impl Cell {
 }
 
 /// The cells of a picture, row by row.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct Image {
     /// Cells in a row.
     pub cols: u32,
@@ -57,6 +58,7 @@ pub struct Image {
     pub rows: u32,
     /// `cols` × `rows` cells.
     pub cells: Vec<Cell>,
+    ramps: Ramps,
 }
 
 impl Image {
@@ -68,7 +70,13 @@ impl Image {
     /// Draws `frame`, which was rendered from `scene`, in the place of what was here.
     pub fn draw(&mut self, frame: &Frame, scene: &Scene, look: Look) {
         let (cols, rows) = look.style.cells_of(frame.size());
-        let painter = Painter { frame, scene, look };
+        self.ramps.set_depth(look.depth);
+        let mut painter = Painter {
+            frame,
+            scene,
+            look,
+            ramps: &mut self.ramps,
+        };
         (self.cols, self.rows) = (cols, rows);
         self.cells.clear();
         self.cells.extend(
@@ -111,10 +119,11 @@ struct Painter<'a> {
     frame: &'a Frame,
     scene: &'a Scene,
     look: Look,
+    ramps: &'a mut Ramps,
 }
 
 impl Painter<'_> {
-    fn cell(&self, col: u32, row: u32) -> Cell {
+    fn cell(&mut self, col: u32, row: u32) -> Cell {
         let (x, y) = self.look.style.pixel_of_cell(col, row);
         match self.look.style {
             Style::Half => self.half(x, y),
@@ -125,16 +134,19 @@ impl Painter<'_> {
     }
 
     /// What is to be seen at pixel (x, y); nothing where nothing is.
-    fn ink(&self, x: u32, y: u32) -> Option<Ink> {
+    fn ink(&mut self, x: u32, y: u32) -> Option<Ink> {
         let contact = self.frame.contact(x, y);
         let brightness = match self.frame.view() {
             _ if contact == Contact::Miss => return None,
             _ if contact == Contact::Nan => 1.0,
-            View::Shade => self.quantised(self.frame.brightness(x, y)),
+            View::Shade => self.frame.brightness(x, y),
             View::Class => 1.0,
             View::Outline if self.frame.outline(x, y) => 1.0,
             View::Outline => return None,
         };
+        if self.dithers() && contact != Contact::Nan && !self.has_dot(x, y) {
+            return None;
+        }
         let color = (self.look.depth != ColorDepth::None).then(|| match self.frame.view() {
             View::Shade | View::Outline if contact != Contact::Nan => self.color(x, y, brightness),
             _ => class_color(contact),
@@ -146,22 +158,32 @@ impl Painter<'_> {
         })
     }
 
-    /// The middle of the step, of as many as are told apart, in which `brightness` lies.
-    fn quantised(&self, brightness: f32) -> f32 {
-        let steps = f32::from(self.look.depth.shades());
-        let step = (brightness * steps).floor().min(steps - 1.0);
-        (step + 0.5) / steps
+    /// Whether shades are shown by how many dots there are, for want of colours.
+    fn dithers(&self) -> bool {
+        let Look { style, depth, .. } = self.look;
+        let view = self.frame.view();
+        (style, depth, view) == (Style::Braille, ColorDepth::None, View::Shade)
     }
 
-    /// The colour of the sphere seen at pixel (x, y), dimmed to `brightness`.
-    fn color(&self, x: u32, y: u32, brightness: f32) -> Rgb {
+    /// Whether the hit at pixel (x, y) is bright enough for its place in the pattern, or an edge:
+    /// the edges keep dark spheres whole and apart.
+    fn has_dot(&self, x: u32, y: u32) -> bool {
+        let rank = BAYER[y as usize % 4][x as usize % 4];
+        let threshold = (f32::from(rank) + 0.5) / 16.0;
+        self.frame.brightness(x, y) > threshold || self.frame.outline(x, y)
+    }
+
+    /// The colour of the sphere seen at pixel (x, y), in the shade of this brightness.
+    fn color(&mut self, x: u32, y: u32, brightness: f32) -> Rgb {
         let seen = self.frame.hit(x, y).map_or(0, |hit| hit.body as usize);
         let base = self.scene.bodies.get(seen).map(|b| color_of(seen, b));
-        // Brightness is light; the channels of a colour are about its square root.
-        dimmed(base.unwrap_or(Rgb(255, 255, 255)), brightness.sqrt())
+        let base = base.unwrap_or(Rgb(255, 255, 255));
+        let shades = self.ramps.of(base);
+        let shade = (brightness * shades.len() as f32) as usize;
+        shades[shade.min(shades.len() - 1)]
     }
 
-    fn ascii(&self, x: u32, y: u32) -> Cell {
+    fn ascii(&mut self, x: u32, y: u32) -> Cell {
         let Some(ink) = self.ink(x, y) else {
             let miss = self.frame.view() == View::Class;
             return Cell::plain(if miss { '.' } else { ' ' });
@@ -184,7 +206,7 @@ impl Painter<'_> {
         }
     }
 
-    fn half(&self, x: u32, y: u32) -> Cell {
+    fn half(&mut self, x: u32, y: u32) -> Cell {
         let (top, bottom) = (self.ink(x, y), self.ink(x, y + 1));
         if is_nan(top) || is_nan(bottom) {
             return Cell::of(NO_ANSWER, self.nan_color());
@@ -214,7 +236,7 @@ impl Painter<'_> {
         (self.look.depth != ColorDepth::None).then(|| class_color(Contact::Nan))
     }
 
-    fn braille(&self, x: u32, y: u32) -> Cell {
+    fn braille(&mut self, x: u32, y: u32) -> Cell {
         let mut dots = 0;
         let mut seen: Option<Ink> = None;
         for (dx, dy, dot) in DOTS {
@@ -316,6 +338,9 @@ const fn ascii_for_half(block: char) -> char {
         _ => 'o',
     }
 }
+
+/// Bayer's order in which the dots of a 4 × 4 block light up as it gets brighter.
+const BAYER: [[u8; 4]; 4] = [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
 
 /// Column, row and bit of the dots of a braille cell.
 const DOTS: [(u32, u32, u32); 8] = [
