@@ -363,3 +363,203 @@ const fn ascii_for_dots(dots: u32) -> char {
         _ => '#',
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+    use crate::geometry::Sphere;
+    use crate::method::Method;
+    use crate::scene::{Body, Camera, PixelShape, Projection, Rays, Size};
+
+    /// Before the eye one sphere on another, beside them one behind the eye, all of which exact
+    /// integers touch; nothing else.
+    fn scene() -> Scene {
+        let bodies = [[6.0, 6.0, 20.0], [9.0, 7.0, 12.0], [20.0, 9.0, -9.0]];
+        let body = |center: [f32; 3]| Body {
+            sphere: Sphere::new(center.into(), 5.0).expect("a sphere"),
+            name: None,
+            color: None,
+        };
+        Scene {
+            name: "test".into(),
+            about: None,
+            camera: Camera {
+                projection: Projection::Orthographic {
+                    extent: [26.0, 16.0],
+                },
+                position: Vec3::new(12.5, 7.5, 0.0),
+                look_at: Vec3::new(12.5, 7.5, 1.0),
+                up: Vec3::NEG_Y,
+            },
+            pixels: Some(Size::new(26, 16)),
+            bodies: bodies.map(body).into(),
+            light: None,
+            probes: Vec::new(),
+        }
+    }
+
+    fn frame_of(scene: &Scene, view: View) -> Frame {
+        let mut frame = Frame::new();
+        let rays = Rays::new(&scene.camera, Size::new(26, 16), PixelShape::Own);
+        frame.render(scene, &rays, Method::Textbook, view);
+        frame
+    }
+
+    fn drawn(view: View, style: Style, depth: ColorDepth) -> (Frame, Image) {
+        let scene = scene();
+        let frame = frame_of(&scene, view);
+        let mut image = Image::new();
+        let look = Look {
+            style,
+            depth,
+            ascii_only: false,
+        };
+        image.draw(&frame, &scene, look);
+        (frame, image)
+    }
+
+    fn pixels(frame: &Frame) -> impl Iterator<Item = (u32, u32)> + use<> {
+        let Size { width, height } = frame.size();
+        (0..height).flat_map(move |y| (0..width).map(move |x| (x, y)))
+    }
+
+    fn cell_at(image: &Image, style: Style, x: u32, y: u32) -> Cell {
+        let (col, row) = style.cell_of_pixel(x, y);
+        image.cell(col, row).expect("a cell")
+    }
+
+    #[test]
+    fn a_half_block_says_of_each_of_its_pixels_whether_it_is_hit() {
+        for depth in ColorDepth::ALL {
+            let (frame, image) = drawn(View::Shade, Style::Half, depth);
+            for (x, y) in pixels(&frame) {
+                let cell = cell_at(&image, Style::Half, x, y);
+                let shows = match cell.glyph {
+                    '█' => true,
+                    '▀' => y % 2 == 0 || cell.bg.is_some(),
+                    '▄' => y % 2 == 1,
+                    ' ' => false,
+                    other => panic!("{other}"),
+                };
+                assert_eq!(shows, frame.hit(x, y).is_some(), "{depth:?} ({x}, {y})");
+                assert_eq!(
+                    cell.fg.is_some(),
+                    depth != ColorDepth::None && cell.glyph != ' '
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_half_block_tells_the_classes_of_its_pixels_without_colour() {
+        let (frame, image) = drawn(View::Class, Style::Half, ColorDepth::None);
+        for (x, y) in pixels(&frame) {
+            let glyph = cell_at(&image, Style::Half, x, y).glyph;
+            let of = |contact| {
+                quarters(Some(Ink {
+                    contact,
+                    brightness: 1.0,
+                    color: None,
+                }))
+            };
+            let shown = of(frame.contact(x, y));
+            let fits = |other: usize| match y % 2 {
+                0 => quadrants(shown, other) == glyph,
+                _ => quadrants(other, shown) == glyph,
+            };
+            assert!((0..4).any(fits), "{glyph} at ({x}, {y})");
+        }
+        let mut blocks: Vec<_> = (0..16).map(|i| quadrants(i / 4, i % 4)).collect();
+        blocks.sort_unstable();
+        blocks.dedup();
+        assert_eq!(blocks.len(), 16, "two pairs of classes look the same");
+    }
+
+    #[test]
+    fn braille_has_a_dot_for_each_hit_and_without_colour_for_each_edge() {
+        let dot = |image: &Image, x: u32, y: u32| {
+            let glyph = cell_at(image, Style::Braille, x, y).glyph;
+            let (_, _, bit) = DOTS[DOTS
+                .iter()
+                .position(|&(dx, dy, _)| (dx, dy) == (x % 2, y % 4))
+                .expect("a dot")];
+            glyph != ' ' && (glyph as u32 - 0x2800) & bit != 0
+        };
+        let (frame, image) = drawn(View::Shade, Style::Braille, ColorDepth::Ansi256);
+        for (x, y) in pixels(&frame) {
+            assert_eq!(dot(&image, x, y), frame.hit(x, y).is_some());
+        }
+        let (frame, image) = drawn(View::Shade, Style::Braille, ColorDepth::None);
+        for (x, y) in pixels(&frame) {
+            assert!(!dot(&image, x, y) || frame.hit(x, y).is_some());
+            assert!(dot(&image, x, y) || !frame.outline(x, y));
+        }
+        let (frame, image) = drawn(View::Outline, Style::Braille, ColorDepth::True);
+        for (x, y) in pixels(&frame) {
+            assert_eq!(dot(&image, x, y), frame.outline(x, y));
+        }
+    }
+
+    #[test]
+    fn an_edge_belongs_to_the_nearer_sphere() {
+        let frame = frame_of(&scene(), View::Outline);
+        for (x, y) in pixels(&frame).filter(|&(x, y)| frame.outline(x, y)) {
+            let here = frame.hit(x, y).expect("an edge is of a hit");
+            let around = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)];
+            let beyond = |(x, y)| frame.hit(x, y).is_none_or(|there| there.t > here.t);
+            assert!(around.into_iter().any(beyond), "({x}, {y})");
+        }
+        // Where the two meet on the row through both, the farther one has no edge of its own.
+        assert!(frame.outline(4, 7) && !frame.outline(3, 7));
+    }
+
+    #[test]
+    fn ascii_tells_every_contact_apart() {
+        let (frame, image) = drawn(View::Class, Style::Ascii, ColorDepth::None);
+        let mut seen: Vec<_> = pixels(&frame)
+            .map(|(x, y)| {
+                (
+                    frame.contact(x, y),
+                    cell_at(&image, Style::Ascii, x, y).glyph,
+                )
+            })
+            .collect();
+        seen.sort_unstable();
+        seen.dedup();
+        assert_eq!(
+            seen,
+            [
+                (Contact::Miss, '.'),
+                (Contact::TangentBehind, '~'),
+                (Contact::SecantBehind, '-'),
+                (Contact::Tangent, 'o'),
+                (Contact::Secant, '#')
+            ]
+        );
+    }
+
+    #[test]
+    fn where_a_method_has_no_answer_every_style_says_so() {
+        let mut scene = scene();
+        // B² and 4AC overflow: ∞ − ∞ is not a number.
+        scene.bodies = vec![Body {
+            sphere: Sphere::new(Vec3::new(0.0, 0.0, 1e30), 1.0).expect("a sphere"),
+            name: None,
+            color: None,
+        }];
+        for view in View::ALL {
+            let frame = frame_of(&scene, view);
+            for style in Style::ALL {
+                let mut image = Image::new();
+                let look = Look {
+                    style,
+                    ..Look::default()
+                };
+                image.draw(&frame, &scene, look);
+                assert!(image.cells.iter().all(|cell| cell.glyph == NO_ANSWER));
+            }
+        }
+    }
+}

@@ -11,34 +11,52 @@ use crate::scene::Rgb;
 #[derive(Debug, Clone, Default)]
 pub(super) struct Ramps {
     depth: ColorDepth,
-    shades: HashMap<Rgb, Vec<Rgb>>,
+    places: HashMap<Rgb, usize>,
+    shades: Vec<Vec<Rgb>>,
+    /// The colour asked for last, and its place: neighbours mostly share it.
+    last: Option<(Rgb, usize)>,
 }
 
 impl Ramps {
     /// Makes ready for a terminal of this depth.
     pub(super) fn set_depth(&mut self, depth: ColorDepth) {
         if self.depth != depth {
-            self.depth = depth;
-            self.shades.clear();
+            *self = Self {
+                depth,
+                ..Self::default()
+            };
         }
     }
 
     /// The shades of `color`, as many as the depth tells apart, the darkest first. Each is a colour
     /// that a terminal of this depth has.
     pub(super) fn of(&mut self, color: Rgb) -> &[Rgb] {
-        let Rgb(r, g, b) = color;
+        let place = match self.last {
+            Some((last, place)) if last == color => place,
+            _ => self.place(color),
+        };
+        self.last = Some((color, place));
+        &self.shades[place]
+    }
+
+    fn place(&mut self, Rgb(r, g, b): Rgb) -> usize {
         let color = match self.depth {
-            ColorDepth::None | ColorDepth::Ansi16 | ColorDepth::True => color,
+            ColorDepth::None | ColorDepth::Ansi16 | ColorDepth::True => Rgb(r, g, b),
             // A ramp takes some time to find: colours that differ little share one.
             ColorDepth::Ansi256 => Rgb(r & 0xf0 | r >> 4, g & 0xf0 | g >> 4, b & 0xf0 | b >> 4),
         };
-        self.shades
-            .entry(color)
-            .or_insert_with(|| match self.depth {
-                ColorDepth::None | ColorDepth::True => exact_shades(color, self.depth).collect(),
-                ColorDepth::Ansi256 => nearest_shades(color, self.depth),
-                ColorDepth::Ansi16 => two_shades(color).to_vec(),
-            })
+        *self.places.entry(color).or_insert_with(|| {
+            self.shades.push(shades(color, self.depth));
+            self.shades.len() - 1
+        })
+    }
+}
+
+fn shades(color: Rgb, depth: ColorDepth) -> Vec<Rgb> {
+    match depth {
+        ColorDepth::None | ColorDepth::True => exact_shades(color, depth).collect(),
+        ColorDepth::Ansi256 => nearest_shades(color, depth),
+        ColorDepth::Ansi16 => two_shades(color).to_vec(),
     }
 }
 
