@@ -7,9 +7,16 @@
 //! * [`method`]: the quadratic, and the ways to evaluate it
 //! * [`scene`]: spheres, camera, light; scene files; the built-in scenes
 //! * [`render`]: rays → nearest hits → shade → glyphs: an image of cells
+//! * [`explain`]: what one pixel found, in numbers and words
+//! * [`explorer`]: state, actions, update, and the screen as cells
+//! * [`terminal`]: enter, leave, restore; the loop between events and the screen
+//! * [`cli`]: parses the arguments, calls one of the above
 
 pub mod cli;
+pub mod explain;
+pub mod explorer;
 pub mod geometry;
 pub mod method;
 pub mod render;
 pub mod scene;
+pub mod terminal;

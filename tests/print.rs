@@ -87,12 +87,34 @@ fn colours_are_as_asked_even_in_a_pipe() {
 }
 
 #[test]
+fn a_pixel_is_told_in_the_words_of_the_panel() {
+    let text = text(&["print", "seed", "--pixel", "20,20"]);
+    for part in [
+        "ray at (20, 20)",
+        "20, 20, 0",
+        "-40",
+        "300",
+        "400",
+        "secant",
+    ] {
+        let plain = text.replace('−', "-");
+        assert!(plain.contains(part), "{part} in {text}");
+    }
+}
+
+#[test]
 fn what_is_asked_wrongly_is_told_in_a_sentence() {
     for (arguments, status, sentence) in [
         (&["print"][..], 2, "<SCENE>"),
         (&["print", "seed", "--style", "hlaf"], 2, "half"),
         (&["print", "seed", "--size", "0x9"], 2, "from 1 to 4096"),
-        (&["print", "seed", "--aspect", "NaN"], 2, "0.1 to 10"),
+        (&["print", "seed", "--aspect", "NaN"], 2, "0.5 to 4"),
+        (&["print", "seed", "--pixel", "1"], 2, "20,20"),
+        (
+            &["print", "seed", "--pixel", "40,0"],
+            2,
+            "from 0,0 to 39,39",
+        ),
         (&["print", "no-such-scene"], 1, "no-such-scene"),
     ] {
         let output = run(arguments);

@@ -2,52 +2,53 @@
 
 use std::fmt::Write as _;
 use std::io::{self, ErrorKind, IsTerminal as _, Write as _};
-use std::path::Path;
 use std::process::ExitCode;
 
-use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueEnum};
 use crossterm::terminal::window_size;
 
+use super::{INVALID, MISUSED, aspect, choice, complain};
+use crate::explain::{self, Digits, Glyphs, Reading};
 use crate::method::Method;
 use crate::render::{
     AnsiColor, CELL_ASPECT, Cell, ColorDepth, Frame, Image, Look, Style, View, fit,
 };
-use crate::scene::{Builtin, PixelShape, Rays, Scene, Size};
+use crate::scene::{PixelShape, Rays, Scene, Size};
+use crate::terminal::Capability;
 
-/// Draws a scene once, as text.
+/// Draw a scene once, as text
 #[derive(Debug, Args)]
 pub(super) struct Print {
-    /// A scene file, or the name of a built-in scene.
+    /// A scene file, or the name of a built-in scene
     scene: String,
 
-    /// Pixels to a cell: two (half), eight (braille), one (ascii), or one in two cells (seed).
-    ///
-    /// Without it half where there are colours, else ascii.
-    #[arg(long, value_parser = PossibleValuesParser::new(Style::ALL.map(Style::name)))]
-    style: Option<String>,
+    /// How samples become characters [default: half where there are colours, else ascii]
+    #[arg(long, value_parser = choice(&Style::ALL, Style::name))]
+    style: Option<Style>,
 
-    /// What is shown.
-    #[arg(long, default_value = View::default().name(),
-          value_parser = PossibleValuesParser::new(View::ALL.map(View::name)))]
-    view: String,
+    /// What the picture shows
+    #[arg(long, value_parser = choice(&View::ALL, View::name), default_value = View::default().name())]
+    view: View,
 
-    /// Width and height in pixels; without it the scene's own, else what fills the terminal.
+    /// Width and height in pixels [default: the scene's own, else what fills the terminal]
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<Size>,
 
-    /// How the quadratic is evaluated.
-    #[arg(long, default_value = Method::default().name(),
-          value_parser = PossibleValuesParser::new(Method::ALL.map(Method::name)))]
-    method: String,
+    /// How the quadratic is evaluated
+    #[arg(long, value_parser = choice(&Method::ALL, Method::name), default_value_t = Method::default())]
+    method: Method,
 
-    /// How many colours; auto: those of the terminal, none in a pipe or file.
+    /// How many colours; auto: as many as the terminal has, in a pipe or file none
     #[arg(long, value_name = "WHEN", default_value = "auto")]
     color: ColorChoice,
 
-    /// How many times as high as wide a cell is.
-    #[arg(long, value_name = "RATIO", default_value_t = CELL_ASPECT, value_parser = aspect)]
+    /// Height of a character cell over its width
+    #[arg(long, default_value_t = CELL_ASPECT, value_parser = aspect)]
     aspect: f64,
+
+    /// Instead of the picture, what the ray of one of its pixels finds
+    #[arg(long, value_name = "X,Y", value_parser = pixel)]
+    pixel: Option<(u32, u32)>,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -61,42 +62,65 @@ enum ColorChoice {
     True,
 }
 
-/// What is known of where the output goes.
-#[derive(Debug, Clone, Copy)]
-struct Output {
-    depth: ColorDepth,
-    /// Whether characters beyond ASCII can be expected to show.
-    unicode: bool,
-    cols: u32,
-    rows: u32,
-}
-
+/// Draws the scene, or reads one pixel of it, and ends with the exit status.
 pub(super) fn run(arguments: &Print) -> ExitCode {
-    let scene = match open(&arguments.scene) {
-        Ok(scene) => scene,
-        Err(sentence) => {
-            return failed(&sentence);
-        }
-    };
-    match print(&picture(&scene, arguments, Output::detect(arguments.color))) {
-        Ok(()) => ExitCode::SUCCESS,
+    let written = text(arguments).and_then(|text| match print(&text) {
         // Whoever read the picture has seen enough of it.
-        Err(error) if error.kind() == ErrorKind::BrokenPipe => ExitCode::SUCCESS,
-        Err(error) => failed(&format!("standard output: {error}")),
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        done => done.map_err(|error| (INVALID, format!("standard output: {error}"))),
+    });
+    match written {
+        Ok(()) => ExitCode::SUCCESS,
+        Err((status, sentence)) => {
+            complain(sentence);
+            ExitCode::from(status)
+        }
     }
 }
 
-fn failed(sentence: &str) -> ExitCode {
-    // Where standard error is closed there is nobody left to tell.
-    let _ = writeln!(io::stderr(), "rayscope: {sentence}");
-    ExitCode::from(1)
+/// What is asked for, or an exit status and the reason.
+fn text(arguments: &Print) -> Result<String, (u8, String)> {
+    let (scene, _) = Scene::open(&arguments.scene).map_err(|e| (INVALID, e.to_string()))?;
+    let capability = capability(arguments.color);
+    let style = arguments.style.unwrap_or_else(|| default_style(capability));
+    let (size, shape) = fit_as_asked(&scene, style, arguments);
+    let rays = Rays::new(&scene.camera, size, shape);
+    match arguments.pixel {
+        None => Ok(picture(&scene, &rays, arguments, style, capability.depth)),
+        Some((x, y)) if x < size.width && y < size.height => {
+            let ray = rays.ray(x, y);
+            let reading = Reading::take(&scene, (x, y), ray, arguments.method, None, None);
+            Ok(panel(&reading, size, capability.glyphs))
+        }
+        Some((x, y)) => {
+            let [right, bottom] = [size.width, size.height].map(|n| n.saturating_sub(1));
+            let expected = format!("a pixel of the picture, from 0,0 to {right},{bottom}");
+            Err((MISUSED, format!("--pixel {x},{y}: expected {expected}")))
+        }
+    }
 }
 
-fn open(name: &str) -> Result<Scene, String> {
-    Builtin::by_name(name).map_or_else(
-        || Scene::load(Path::new(name)).map_err(|error| error.to_string()),
-        |builtin| Ok(builtin.scene()),
-    )
+fn capability(choice: ColorChoice) -> Capability {
+    let capability = Capability::of_output();
+    let depth = match choice {
+        ColorChoice::Auto => capability.depth,
+        ColorChoice::Never => ColorDepth::None,
+        ColorChoice::Ansi16 => ColorDepth::Ansi16,
+        ColorChoice::Ansi256 => ColorDepth::Ansi256,
+        ColorChoice::True => ColorDepth::True,
+    };
+    Capability {
+        depth,
+        ..capability
+    }
+}
+
+fn default_style(capability: Capability) -> Style {
+    if capability.depth == ColorDepth::None || capability.glyphs == Glyphs::Ascii {
+        Style::Ascii
+    } else {
+        Style::Half
+    }
 }
 
 fn print(text: &str) -> io::Result<()> {
@@ -105,40 +129,54 @@ fn print(text: &str) -> io::Result<()> {
     out.flush()
 }
 
-/// The picture as text, with escape sequences for its colours if there are any.
-fn picture(scene: &Scene, arguments: &Print, output: Output) -> String {
-    let by_colors = if output.depth == ColorDepth::None || !output.unicode {
-        Style::Ascii
-    } else {
-        Style::Half
-    };
-    let asked = arguments.style.as_deref().and_then(Style::by_name);
-    let style = asked.unwrap_or(by_colors);
-    let (size, shape) = fit_as_asked(scene, style, arguments, output);
-    let view = View::by_name(&arguments.view).unwrap_or_default();
-    let method = Method::by_name(&arguments.method).unwrap_or_default();
+/// What the side panel of the explorer shows for a pixel, under a line that says for which.
+fn panel(reading: &Reading, size: Size, glyphs: Glyphs) -> String {
+    let Size { width, height } = size;
+    let ((x, y), method) = (reading.pixel, reading.method);
+    let title = format!("ray at ({x}, {y}) of {width} by {height} pixels, method {method}");
+    let lines = explain::lines(reading, DEFAULT_ROOM.0 as usize, Digits::Full);
+    glyphs.spell(&format!("{title}\n{}", explain::plain_text(&lines)))
+}
 
+/// The picture as text, with escape sequences for its colours if there are any.
+fn picture(
+    scene: &Scene,
+    rays: &Rays,
+    arguments: &Print,
+    style: Style,
+    depth: ColorDepth,
+) -> String {
     let mut frame = Frame::new();
-    let rays = Rays::new(&scene.camera, size, shape);
-    frame.render(scene, &rays, method, view.shown_in(style));
+    let view = arguments.view.shown_in(style);
+    frame.render(scene, rays, arguments.method, view);
     let mut image = Image::new();
     let look = Look {
         style,
-        depth: output.depth,
+        depth,
         ascii_only: false,
     };
     image.draw(&frame, scene, look);
-    encode(image.lines(), output.depth)
+    encode(image.lines(), depth)
+}
+
+/// Columns and rows where there is no terminal to ask.
+const DEFAULT_ROOM: (u32, u32) = (80, 24);
+
+/// Columns and rows that the output has room for.
+fn room() -> (u32, u32) {
+    match window_size() {
+        // The last row is left to the prompt that follows.
+        Ok(size) if io::stdout().is_terminal() && size.columns > 0 && size.rows > 1 => {
+            (size.columns.into(), u32::from(size.rows) - 1)
+        }
+        _ => DEFAULT_ROOM,
+    }
 }
 
 /// The size of the picture: as asked, else the scene's own, else what fills the room.
-fn fit_as_asked(
-    scene: &Scene,
-    style: Style,
-    arguments: &Print,
-    output: Output,
-) -> (Size, PixelShape) {
-    let (own, shape) = fit(scene, style, output.cols, output.rows, arguments.aspect);
+fn fit_as_asked(scene: &Scene, style: Style, arguments: &Print) -> (Size, PixelShape) {
+    let (cols, rows) = room();
+    let (own, shape) = fit(scene, style, cols, rows, arguments.aspect);
     match arguments.size {
         Some(asked) if asked != own => {
             let aspect = style.pixel_aspect(arguments.aspect);
@@ -192,63 +230,6 @@ fn change_colors(
     }
 }
 
-impl Output {
-    fn detect(choice: ColorChoice) -> Self {
-        let variable = |name: &str| std::env::var(name).ok().filter(|value| !value.is_empty());
-        let terminal = io::stdout().is_terminal();
-        let (cols, rows) = match window_size() {
-            // The last row is left to the prompt that follows.
-            Ok(size) if terminal && size.columns > 0 && size.rows > 1 => {
-                (u32::from(size.columns), u32::from(size.rows) - 1)
-            }
-            _ => (80, 24),
-        };
-        Self {
-            depth: match choice {
-                ColorChoice::Ansi16 => ColorDepth::Ansi16,
-                ColorChoice::Ansi256 => ColorDepth::Ansi256,
-                ColorChoice::True => ColorDepth::True,
-                ColorChoice::Auto if terminal => depth_by(variable),
-                ColorChoice::Auto | ColorChoice::Never => ColorDepth::None,
-            },
-            unicode: unicode_by(variable),
-            cols,
-            rows,
-        }
-    }
-}
-
-/// The colours that a terminal has by its environment, of which empty variables are no part.
-fn depth_by(variable: impl Fn(&str) -> Option<String>) -> ColorDepth {
-    let is = |name: &str, value: &str| variable(name).is_some_and(|v| v == value);
-    let term = variable("TERM").unwrap_or_default();
-    // Apple's Terminal passes COLORTERM on from elsewhere, and shows 256.
-    let colorterm = !is("TERM_PROGRAM", "Apple_Terminal")
-        && (is("COLORTERM", "truecolor") || is("COLORTERM", "24bit"));
-    if variable("NO_COLOR").is_some() || term == "dumb" {
-        ColorDepth::None
-    } else if colorterm {
-        ColorDepth::True
-    } else if term.contains("256")
-        || term.starts_with("xterm") && variable("SSH_CONNECTION").is_some()
-    {
-        ColorDepth::Ansi256
-    } else {
-        ColorDepth::Ansi16
-    }
-}
-
-/// Whether the locale's characters are those of Unicode.
-fn unicode_by(variable: impl Fn(&str) -> Option<String>) -> bool {
-    ["LC_ALL", "LC_CTYPE", "LANG"]
-        .into_iter()
-        .find_map(variable)
-        .is_some_and(|locale| {
-            let locale = locale.to_ascii_lowercase();
-            locale.contains("utf-8") || locale.contains("utf8")
-        })
-}
-
 fn size(text: &str) -> Result<Size, String> {
     let side = |digits: &str| {
         let number = digits.parse().ok()?;
@@ -262,57 +243,16 @@ fn size(text: &str) -> Result<Size, String> {
         })
 }
 
-fn aspect(text: &str) -> Result<f64, String> {
-    text.parse()
-        .ok()
-        .filter(|aspect| (0.1..=10.0).contains(aspect))
-        .ok_or_else(|| "expected a number from 0.1 to 10, such as 2".into())
+fn pixel(text: &str) -> Result<(u32, u32), String> {
+    text.split_once(',')
+        .and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)))
+        .ok_or_else(|| "expected a column and a row, counted from 0, such as 20,20".into())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::scene::Rgb;
-
-    fn with(variables: &[(&str, &str)]) -> impl Fn(&str) -> Option<String> {
-        move |name| {
-            let found = variables.iter().find(|(n, _)| *n == name);
-            found.map(|(_, value)| (*value).into())
-        }
-    }
-
-    #[test]
-    fn the_environment_decides_on_colours_in_the_order_of_its_words() {
-        let truecolor = ("COLORTERM", "truecolor");
-        let cases: [(&[(&str, &str)], _); 9] = [
-            (&[("NO_COLOR", "1"), truecolor], ColorDepth::None),
-            (&[("TERM", "dumb")], ColorDepth::None),
-            (&[truecolor, ("TERM", "xterm")], ColorDepth::True),
-            (&[("COLORTERM", "24bit")], ColorDepth::True),
-            (
-                &[truecolor, ("TERM_PROGRAM", "Apple_Terminal")],
-                ColorDepth::Ansi16,
-            ),
-            (&[("TERM", "screen-256color")], ColorDepth::Ansi256),
-            (
-                &[("TERM", "xterm"), ("SSH_CONNECTION", "a")],
-                ColorDepth::Ansi256,
-            ),
-            (&[("TERM", "linux")], ColorDepth::Ansi16),
-            (&[], ColorDepth::Ansi16),
-        ];
-        for (variables, expected) in cases {
-            assert_eq!(depth_by(with(variables)), expected, "{variables:?}");
-        }
-    }
-
-    #[test]
-    fn the_first_locale_that_is_set_decides_on_characters() {
-        assert!(unicode_by(with(&[("LANG", "de_DE.UTF-8")])));
-        assert!(unicode_by(with(&[("LC_CTYPE", "C.utf8"), ("LANG", "C")])));
-        assert!(!unicode_by(with(&[("LC_ALL", "C"), ("LANG", "C.UTF-8")])));
-        assert!(!unicode_by(with(&[])));
-    }
 
     #[test]
     fn sizes_are_two_numbers_in_range() {

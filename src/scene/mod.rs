@@ -5,6 +5,8 @@
 
 mod builtin;
 mod camera;
+mod open;
+pub use open::Source;
 mod file;
 pub mod value;
 mod write;
