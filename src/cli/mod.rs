@@ -1,9 +1,10 @@
 //! The command line: parses the arguments and calls the part that does the work.
 
 mod explore;
+mod scenes;
 
 use std::fmt;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -21,14 +22,16 @@ struct Arguments {
 }
 
 #[derive(Debug, Subcommand)]
-enum Command {}
+enum Command {
+    Scenes(scenes::Scenes),
+}
 
 /// Runs the program with the arguments of this process.
 pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
     match arguments.command {
         None => explore::run(&arguments.explore),
-        Some(command) => match command {},
+        Some(Command::Scenes(arguments)) => scenes::run(&arguments),
     }
 }
 
@@ -44,6 +47,19 @@ fn choice<T: Copy + Send + Sync + 'static>(
         let found = all.iter().copied().find(|&v| name(v) == given);
         found.ok_or("no such name")
     })
+}
+
+/// Writes to standard output. Whoever closes it early has seen enough.
+fn print(text: &str) -> ExitCode {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(error) => {
+            complain(format_args!("standard output: {error}"));
+            ExitCode::from(INVALID)
+        }
+    }
 }
 
 /// Says a sentence on standard error. If nobody can read it, nobody is missing it.
