@@ -2,9 +2,10 @@
 
 mod explore;
 mod print;
+mod scenes;
 
 use std::fmt;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -24,6 +25,7 @@ struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     Print(print::Print),
+    Scenes(scenes::Scenes),
 }
 
 /// Runs the program with the arguments of this process.
@@ -32,6 +34,7 @@ pub fn main() -> ExitCode {
     match arguments.command {
         None => explore::run(&arguments.explore),
         Some(Command::Print(arguments)) => print::run(&arguments),
+        Some(Command::Scenes(arguments)) => scenes::run(&arguments),
     }
 }
 
@@ -57,6 +60,19 @@ fn aspect(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(aspect) if (0.5..=4.0).contains(&aspect) => Ok(aspect),
         _ => Err("expected a number from 0.5 to 4".into()),
+    }
+}
+
+/// Writes to standard output. Whoever closes it early has seen enough.
+fn print(text: &str) -> ExitCode {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(error) => {
+            complain(format_args!("standard output: {error}"));
+            ExitCode::from(INVALID)
+        }
     }
 }
 

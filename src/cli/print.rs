@@ -1,7 +1,7 @@
 //! `rayscope print`: draws a scene once to standard output. No state of a terminal is touched.
 
 use std::fmt::Write as _;
-use std::io::{self, ErrorKind, IsTerminal as _, Write as _};
+use std::io::{self, IsTerminal as _};
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
@@ -64,13 +64,8 @@ enum ColorChoice {
 
 /// Draws the scene, or reads one pixel of it, and ends with the exit status.
 pub(super) fn run(arguments: &Print) -> ExitCode {
-    let written = text(arguments).and_then(|text| match print(&text) {
-        // Whoever read the picture has seen enough of it.
-        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
-        done => done.map_err(|error| (INVALID, format!("standard output: {error}"))),
-    });
-    match written {
-        Ok(()) => ExitCode::SUCCESS,
+    match text(arguments) {
+        Ok(text) => super::print(&text),
         Err((status, sentence)) => {
             complain(sentence);
             ExitCode::from(status)
@@ -121,12 +116,6 @@ fn default_style(capability: Capability) -> Style {
     } else {
         Style::Half
     }
-}
-
-fn print(text: &str) -> io::Result<()> {
-    let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes())?;
-    out.flush()
 }
 
 /// What the side panel of the explorer shows for a pixel, under a line that says for which.

@@ -6,13 +6,15 @@
 //! sphere 1 of 1, r 10           nearest hit
 //! c    20, 20, 20
 //!
-//! A    d·d                       1
-//!      = 0² + 0² + 1²
-//! B    2 d·(p0−c)              −40
-//!      …
+//! A    d·d            1
+//!   = 0² + 0² + 1²
+//! B    2 d·(p0−c)    −40
+//!   …
 //! ```
 
 use std::cmp::Ordering;
+
+use glam::Vec3;
 
 use super::{Digits, Meeting, Reading, Subject, number, vector};
 use crate::method::{Class, Coefficients, Place, Precision, Solution};
@@ -89,12 +91,17 @@ impl Line {
 }
 
 const LABEL_WIDTH: usize = 5;
+/// What stands between a centre and its radius.
+const RADIUS_LABEL: &str = "   r ";
+/// Where the formula with the numbers put in starts.
+const SUBSTITUTED: usize = 2;
 
 /// The panel for a reading, in lines of at most `width` characters where that is possible.
 pub fn lines(reading: &Reading, width: usize, digits: Digits) -> Vec<Line> {
     let mut out = Vec::new();
-    out.push(labelled("p0", &vector(reading.ray.origin, digits), 0));
-    out.push(labelled("d", &vector(reading.ray.direction, digits), 0));
+    let in_room = |v| fitting_vector(v, width.saturating_sub(LABEL_WIDTH), digits);
+    out.push(labelled("p0", &in_room(reading.ray.origin), 0));
+    out.push(labelled("d", &in_room(reading.ray.direction), 0));
     let Some(subject) = &reading.subject else {
         out.push(Line::new(0));
         out.push(Line::new(0).with(Role::Plain, "The scene has no spheres."));
@@ -104,7 +111,7 @@ pub fn lines(reading: &Reading, width: usize, digits: Digits) -> Vec<Line> {
     out.push(Line::new(5));
     out.extend(coefficient_lines(reading, subject, width, digits));
     out.extend(verdict_lines(subject, width, digits));
-    out.extend(sight_lines(subject, digits));
+    out.extend(sight_lines(subject, width, digits));
     out.extend(meeting_lines(reading, subject.body, digits));
     out
 }
@@ -116,6 +123,15 @@ fn labelled(label: &str, value: &str, spare: u8) -> Line {
         .with(Role::Value, value)
 }
 
+/// A vector with as many of the digits as the room holds, but never fewer than three.
+fn fitting_vector(v: Vec3, room: usize, digits: Digits) -> String {
+    let shortened = (3..=6).rev().map(Digits::Significant);
+    let mut choices = std::iter::once(digits).chain(shortened);
+    choices
+        .find(|&d| vector(v, d).chars().count() <= room)
+        .map_or_else(|| vector(v, Digits::Significant(3)), |d| vector(v, d))
+}
+
 fn subject_lines(subject: &Subject, spheres: usize, width: usize, digits: Digits) -> Vec<Line> {
     let mut title = format!("sphere {} of {spheres}", subject.body + 1);
     if let Some(name) = &subject.name {
@@ -125,6 +141,7 @@ fn subject_lines(subject: &Subject, spheres: usize, width: usize, digits: Digits
     let room = width.saturating_sub(why.len() + 1);
     let title = clip(&title, room.max(12));
     let radius = number(subject.sphere.radius.into(), true, digits);
+    let room = width.saturating_sub(LABEL_WIDTH + RADIUS_LABEL.len() + radius.chars().count());
     vec![
         Line::new(1)
             .with(Role::Plain, title)
@@ -133,8 +150,11 @@ fn subject_lines(subject: &Subject, spheres: usize, width: usize, digits: Digits
         Line::new(0)
             .with(Role::Label, "c")
             .to(LABEL_WIDTH)
-            .with(Role::Value, vector(subject.sphere.center, digits))
-            .with(Role::Label, "   r ")
+            .with(
+                Role::Value,
+                fitting_vector(subject.sphere.center, room, digits),
+            )
+            .with(Role::Label, RADIUS_LABEL)
             .with(Role::Value, radius),
     ]
 }
@@ -166,24 +186,33 @@ fn coefficient_lines(
         let terms = [0, 1, 2].map(|i| format!("{}·{}", in_brackets(d[i], n), in_brackets(o[i], n)));
         format!("2({})", terms.join(" + "))
     };
+    let distance = |n| format!("{} − {}²", squares(o, n), in_brackets(r, n));
+    let short_distance = |n| {
+        let both = [c + r * r, r * r].map(|x| in_brackets(x, n));
+        format!("{} − {}", both[0], both[1])
+    };
+    let discriminant_of = |n| {
+        let [a, b, c] = [a, b, c].map(|x| in_brackets(x, n));
+        format!("{b}² − 4·{a}·{c}")
+    };
+    let short_difference = |n| {
+        let both = [b * b, 4.0 * a * c].map(|x| in_brackets(x, n));
+        format!("{} − {}", both[0], both[1])
+    };
+    let dot = |n| format!("2·{}", in_brackets(b / 2.0, n));
     let rows = [
-        ("A", "d·d", widest(width, |n| squares(d, n)), a),
-        ("B", "2 d·(p0−c)", widest(width, product), b),
+        ("A", "d·d", widest(width, &|n| squares(d, n), None), a),
+        ("B", "2 d·(p0−c)", widest(width, &product, Some(&dot)), b),
         (
             "C",
             "|p0−c|² − r²",
-            widest(width, |n| {
-                format!("{} − {}²", squares(o, n), in_brackets(r, n))
-            }),
+            widest(width, &distance, Some(&short_distance)),
             c,
         ),
         (
             "Δ",
             "B² − 4AC",
-            widest(width, |n| {
-                let [a, b, c] = [a, b, c].map(|x| in_brackets(x, n));
-                format!("{b}² − 4·{a}·{c}")
-            }),
+            widest(width, &discriminant_of, Some(&short_difference)),
             discriminant,
         ),
     ];
@@ -199,7 +228,7 @@ fn coefficient_lines(
         );
         out.push(
             Line::new(3)
-                .to(LABEL_WIDTH)
+                .to(SUBSTITUTED)
                 .with(Role::Faint, format!("= {substituted}")),
         );
     }
@@ -226,14 +255,19 @@ fn bracketed(value: &str) -> String {
     }
 }
 
-/// The expression with as many digits as the width holds.
-fn widest(width: usize, expression: impl Fn(usize) -> String) -> String {
-    let room = width.saturating_sub(LABEL_WIDTH + 2);
-    (2..=7)
-        .rev()
-        .map(&expression)
-        .find(|e| e.chars().count() <= room)
-        .unwrap_or_else(|| clip(&expression(2), room.max(8)))
+/// An expression in numbers of that many digits.
+type Expression<'a> = &'a dyn Fn(usize) -> String;
+
+/// The expression with as many digits as the width holds, at least three; else the shorter one.
+fn widest(width: usize, expression: Expression<'_>, shorter: Option<Expression<'_>>) -> String {
+    let room = width.saturating_sub(SUBSTITUTED + 2);
+    let fits = |e: &String| e.chars().count() <= room;
+    let in_full = (3..=7).rev().map(expression).find(fits);
+    let in_short = || (3..=7).rev().map(shorter?).find(fits);
+    in_full
+        .or_else(in_short)
+        .or_else(|| Some(expression(2)).filter(fits))
+        .unwrap_or_else(|| clip(&shorter.unwrap_or(expression)(2), room.max(8)))
 }
 
 /// Text of at most `room` characters, with a mark where it was cut.
@@ -281,15 +315,18 @@ fn root(label: &str, formula: &str, value: &str) -> Line {
         .with(Role::Value, hang(value))
 }
 
-fn sight_lines(subject: &Subject, digits: Digits) -> Vec<Line> {
+fn sight_lines(subject: &Subject, width: usize, digits: Digits) -> Vec<Line> {
     let Some(sight) = subject.sight else {
         return Vec::new();
     };
+    let in_room = |v| fitting_vector(v, width.saturating_sub(LABEL_WIDTH), digits);
     let cosine = number(sight.cosine.into(), true, Digits::Significant(4));
     vec![
-        labelled("p", &vector(sight.point, digits), 1),
-        labelled("n", &vector(sight.normal, digits), 1),
-        labelled("cos θ", &format!(" {cosine}"), 2),
+        labelled("p", &in_room(sight.point), 1),
+        labelled("n", &in_room(sight.normal), 1),
+        Line::new(2)
+            .with(Role::Label, "cos θ ")
+            .with(Role::Value, cosine),
     ]
 }
 

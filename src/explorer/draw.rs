@@ -10,7 +10,7 @@ use super::action::{Action, FOOTER, Group};
 use super::command::WITH_ARGUMENT;
 use super::field::Field;
 use super::layout::{self, LEAST};
-use super::mode::{Form, Mode, Prompt};
+use super::mode::{Form, Message, Mode, Prompt};
 use super::theme::Theme;
 use crate::explain::{self, Glyphs, Line};
 use crate::method::Place;
@@ -118,11 +118,10 @@ impl Explorer {
             return None;
         };
         self.draw_title(&mut pen, layout.title);
-        let footer = self.draw_footer(&mut pen, layout.footer);
         if let Mode::Help { scroll } = self.mode {
             let body = layout.view.union(layout.panel).union(layout.strip);
             draw_help(&mut pen, body, scroll);
-            return footer;
+            return self.draw_footer(&mut pen, layout.footer);
         }
         let cell = self.draw_view(&mut pen, layout.view);
         let field = match &self.mode {
@@ -137,6 +136,8 @@ impl Explorer {
                 None
             }
         };
+        // Last, since a long message covers what is above it.
+        let footer = self.draw_footer(&mut pen, layout.footer);
         footer.or(field).or(cell)
     }
 
@@ -190,12 +191,7 @@ impl Explorer {
             return None;
         }
         if let Some(message) = &self.message {
-            let style = if message.warning {
-                pen.theme.warning()
-            } else {
-                CellStyle::new()
-            };
-            pen.text(x, y, room, &message.text, style);
+            draw_message(pen, area, message);
             return None;
         }
         let keys: &[(&str, &str)] = match self.mode {
@@ -428,20 +424,44 @@ impl Explorer {
 fn too_small(pen: &mut Pen<'_>, area: Rect) {
     let (cols, rows) = LEAST;
     let sentence = format!("rayscope needs {cols} columns and {rows} rows; q quits");
-    let mut y = area.y;
-    let mut line = String::new();
-    for word in sentence.split(' ') {
-        if !line.is_empty() && line.len() + word.len() >= usize::from(area.width) {
-            pen.text(area.x, y, area.width, &line, CellStyle::new());
-            line.clear();
-            y = y.saturating_add(1);
-        }
-        if !line.is_empty() {
-            line.push(' ');
-        }
-        line += word;
+    for (y, line) in (area.top()..area.bottom()).zip(wrap(&sentence, area.width.into())) {
+        pen.text(area.x, y, area.width, &line, CellStyle::new());
     }
-    pen.text(area.x, y, area.width, &line, CellStyle::new());
+}
+
+/// A message over the footer; one that is too long for a line covers the lines above.
+fn draw_message(pen: &mut Pen<'_>, footer: Rect, message: &Message) {
+    let style = if message.warning {
+        pen.theme.warning()
+    } else {
+        CellStyle::new()
+    };
+    let room = footer.width.saturating_sub(2);
+    let lines = wrap(&pen.glyphs.spell(&message.text), room.into());
+    let count = (lines.len() as u16).min(footer.y);
+    let top = footer.bottom() - count;
+    for (y, line) in (top..footer.bottom()).zip(&lines) {
+        let blank = " ".repeat(footer.width.into());
+        pen.buffer.set_string(footer.x, y, blank, Theme::plain());
+        pen.text(footer.x + 1, y, room, line, style);
+    }
+}
+
+/// The words of `text` in lines of at most `width` columns, where no word is longer than that.
+fn wrap(text: &str, width: usize) -> Vec<String> {
+    let mut lines = Vec::new();
+    let mut line = String::new();
+    for word in text.split_whitespace() {
+        if line.is_empty() {
+            word.clone_into(&mut line);
+        } else if line.width() + 1 + word.width() <= width {
+            line = format!("{line} {word}");
+        } else {
+            lines.push(std::mem::replace(&mut line, word.to_owned()));
+        }
+    }
+    lines.push(line);
+    lines
 }
 
 /// A line of the help page: a heading, or keys and what they do.

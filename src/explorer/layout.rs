@@ -16,11 +16,11 @@ use crate::scene::Scene;
 /// The smallest screen that is drawn on, in columns and rows.
 pub const LEAST: (u16, u16) = (20, 6);
 /// From this width on the panel stands beside the view.
-const WIDE: u16 = 64;
+const WIDE: u16 = 66;
 /// From this height on a narrow screen has room for view and panel.
 const TALL: u16 = 18;
 /// The panel's width: at least, and at most.
-const PANEL: (u16, u16) = (34, 58);
+const PANEL: (u16, u16) = (38, 58);
 /// What the border takes.
 const BORDER: u16 = 2;
 
@@ -59,7 +59,7 @@ impl Layout {
         });
         if area.width >= WIDE {
             let most = body.width - PANEL.0;
-            let usual = body.width - (body.width * 9 / 20).clamp(PANEL.0, PANEL.1);
+            let usual = body.width - (body.width * 2 / 5).clamp(PANEL.0, PANEL.1);
             let rest = body.width - PANEL.1.min(most);
             let view = wanted.map_or(usual, |(cols, _)| cols.clamp(rest.min(most), most));
             (layout.view, layout.panel) = split_columns(body, view);

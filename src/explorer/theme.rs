@@ -54,6 +54,11 @@ impl Theme {
         self.hue(Color::LightRed).add_modifier(Modifier::BOLD)
     }
 
+    /// Words, over whatever was there before.
+    pub const fn plain() -> Style {
+        Style::reset()
+    }
+
     /// Borders.
     pub const fn border() -> Style {
         Style::new().add_modifier(Modifier::DIM)

@@ -5,15 +5,15 @@
 
 mod builtin;
 mod camera;
-mod open;
-pub use open::Source;
 mod file;
+mod open;
 pub mod value;
 mod write;
 
 pub use builtin::Builtin;
 pub use camera::{Camera, PixelShape, Projection, Rays, Size};
 pub use file::{FileError, LARGEST_FILE, Position};
+pub use open::Source;
 
 use glam::Vec3;
 
