@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use super::{INVALID, choice, complain};
+use super::{INVALID, aspect, choice, complain};
 use crate::explorer::{Explorer, Options};
 use crate::method::Method;
 use crate::render::{Style, View};
@@ -33,13 +33,6 @@ pub(super) struct Explore {
     /// Height of a character cell over its width
     #[arg(long, default_value_t = Options::default().aspect, value_parser = aspect)]
     aspect: f64,
-}
-
-fn aspect(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(aspect) if (0.5..=4.0).contains(&aspect) => Ok(aspect),
-        _ => Err("expected a number from 0.5 to 4".into()),
-    }
 }
 
 /// Opens the explorer and ends with the exit status that the person left it with.

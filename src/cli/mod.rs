@@ -1,6 +1,7 @@
 //! The command line: parses the arguments and calls the part that does the work.
 
 mod explore;
+mod print;
 mod scenes;
 
 use std::fmt;
@@ -23,6 +24,7 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Print(print::Print),
     Scenes(scenes::Scenes),
 }
 
@@ -31,12 +33,16 @@ pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
     match arguments.command {
         None => explore::run(&arguments.explore),
+        Some(Command::Print(arguments)) => print::run(&arguments),
         Some(Command::Scenes(arguments)) => scenes::run(&arguments),
     }
 }
 
 /// The exit status where some input was invalid.
 const INVALID: u8 = 1;
+
+/// The exit status where the program was called wrongly.
+const MISUSED: u8 = 2;
 
 /// Reads one of several values by its name.
 fn choice<T: Copy + Send + Sync + 'static>(
@@ -49,8 +55,16 @@ fn choice<T: Copy + Send + Sync + 'static>(
     })
 }
 
+/// Reads how many times as high as wide a cell is.
+fn aspect(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(aspect) if (0.5..=4.0).contains(&aspect) => Ok(aspect),
+        _ => Err("expected a number from 0.5 to 4".into()),
+    }
+}
+
 /// Writes to standard output. Whoever closes it early has seen enough.
-fn print(text: &str) -> ExitCode {
+fn write_out(text: &str) -> ExitCode {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Ok(()) => ExitCode::SUCCESS,

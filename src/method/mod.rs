@@ -3,7 +3,13 @@
 //! The rest of the program asks a [`Method`] and gets a [`Solution`]; it never works the formula
 //! itself. Each method has a file of its own.
 
+mod citardauq;
+mod double;
 mod dyadic;
+mod haines;
+mod kahan;
+mod number;
+mod q_form;
 mod surd;
 mod textbook;
 mod truth;
@@ -22,16 +28,34 @@ pub enum Method {
     /// B² − 4AC and (−B ± √Δ)/2A in binary32, operation for operation as in the tutorial.
     #[default]
     Textbook,
+    /// b² − AC with b = B/2, and the q-form's roots q/A and C/q, in binary32.
+    Citardauq,
+    /// r² − ‖o − (b/A)d‖², the perpendicular form, and the q-form's roots, in binary32.
+    Haines,
+    /// b² − AC by fused multiply-adds, and the q-form's roots, in binary32.
+    Kahan,
+    /// A r² − ‖o × d‖², Lagrange's identity, and the q-form's roots, in binary64 inside.
+    Double,
 }
 
 impl Method {
     /// All methods, in the order in which lists show them.
-    pub const ALL: [Self; 1] = [Self::Textbook];
+    pub const ALL: [Self; 5] = [
+        Self::Textbook,
+        Self::Citardauq,
+        Self::Haines,
+        Self::Kahan,
+        Self::Double,
+    ];
 
     /// The name on the command line, in files and on the screen.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Textbook => "textbook",
+            Self::Citardauq => "citardauq",
+            Self::Haines => "haines",
+            Self::Kahan => "kahan",
+            Self::Double => "double",
         }
     }
 
@@ -44,6 +68,10 @@ impl Method {
     pub fn solve(self, ray: &Ray, sphere: &Sphere) -> Solution {
         match self {
             Self::Textbook => textbook::solve(ray, sphere),
+            Self::Citardauq => citardauq::solve(ray, sphere),
+            Self::Haines => haines::solve(ray, sphere),
+            Self::Kahan => kahan::solve(ray, sphere),
+            Self::Double => double::solve(ray, sphere),
         }
     }
 
@@ -51,6 +79,10 @@ impl Method {
     pub fn coefficients(self, ray: &Ray, sphere: &Sphere) -> Coefficients {
         match self {
             Self::Textbook => textbook::coefficients(ray, sphere),
+            Self::Citardauq => citardauq::coefficients(ray, sphere),
+            Self::Haines => haines::coefficients(ray, sphere),
+            Self::Kahan => kahan::coefficients(ray, sphere),
+            Self::Double => double::coefficients(ray, sphere),
         }
     }
 }
@@ -153,6 +185,15 @@ impl Solution {
             class,
             near: f32::NAN,
             far: f32::NAN,
+        }
+    }
+
+    /// An answer with both roots; a root of −0 is given as the 0 it equals.
+    pub fn with_roots(class: Class, near: f32, far: f32) -> Self {
+        Self {
+            class,
+            near: near + 0.0,
+            far: far + 0.0,
         }
     }
 

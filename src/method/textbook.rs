@@ -1,54 +1,79 @@
 //! The textbook formula in binary32, operation for operation as in the tutorial's
 //! `intersectRaySphere`, and the roots that the tutorial leaves to its reader.
 
+use super::number::{Input, Number, dot, sub};
 use super::{Class, Coefficients, Precision, Solution};
 use crate::geometry::{Ray, Sphere};
 
 /// Every quantity that the formula names, in the order of the mathematics.
-struct Quadratic {
-    a: f32,
-    b: f32,
-    c: f32,
-    discriminant: f32,
+#[expect(dead_code, reason = "the traced run is to show them")]
+struct Quadratic<T> {
+    o: [T; 3],
+    a: T,
+    b: T,
+    oo: T,
+    rr: T,
+    c: T,
+    bb: T,
+    four_ac: T,
+    discriminant: T,
 }
 
-fn dot(u: [f32; 3], v: [f32; 3]) -> f32 {
-    u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
-}
+#[inline]
+fn quadratic<T: Number>(input: &Input<T>) -> Quadratic<T> {
+    let Input { p0, d, center, r } = *input;
+    let [two, four] = [2.0, 4.0].map(T::constant);
 
-fn quadratic(ray: &Ray, sphere: &Sphere) -> Quadratic {
-    let d = ray.direction.to_array();
-    let [px, py, pz] = ray.origin.to_array();
-    let [cx, cy, cz] = sphere.center.to_array();
-    let dist = [px - cx, py - cy, pz - cz];
-
+    let o = sub(p0, center);
     let a = dot(d, d);
-    let b = 2.0 * dot(d, dist);
-    let c = dot(dist, dist) - sphere.radius * sphere.radius;
-    let discriminant = b * b - 4.0 * a * c;
+    let b = two * dot(d, o);
+    let oo = dot(o, o);
+    let rr = r * r;
+    let c = oo - rr;
+    let bb = b * b;
+    let four_ac = four * a * c;
+    let discriminant = bb - four_ac;
     Quadratic {
+        o,
         a,
         b,
+        oo,
+        rr,
         c,
+        bb,
+        four_ac,
         discriminant,
     }
+}
+
+/// √Δ and the two roots.
+#[expect(dead_code, reason = "the traced run is to show them")]
+struct Roots<T> {
+    root: T,
+    near: T,
+    far: T,
+}
+
+#[inline]
+fn roots<T: Number>(a: T, b: T, discriminant: T) -> Roots<T> {
+    let two = T::constant(2.0);
+    let root = discriminant.sqrt();
+    let near = (-b - root) / (two * a);
+    let far = (-b + root) / (two * a);
+    Roots { root, near, far }
 }
 
 /// Class and roots by (−B ± √Δ) / 2A.
 pub(super) fn solve(ray: &Ray, sphere: &Sphere) -> Solution {
     let Quadratic {
         a, b, discriminant, ..
-    } = quadratic(ray, sphere);
-    let class = Class::of_discriminant(f64::from(discriminant));
+    } = quadratic(&Input::new(ray, sphere, |x| x));
+    let class = Class::of_discriminant(discriminant.into());
     if !class.meets() {
         return Solution::without_roots(class);
     }
-    let root = discriminant.sqrt();
-    Solution {
-        class,
-        near: (-b - root) / (2.0 * a),
-        far: (-b + root) / (2.0 * a),
-    }
+    let Roots { near, far, .. } = roots(a, b, discriminant);
+    Solution::with_roots(class, near, far)
 }
 
 /// A, B, C and Δ in binary32.
@@ -58,7 +83,8 @@ pub(super) fn coefficients(ray: &Ray, sphere: &Sphere) -> Coefficients {
         b,
         c,
         discriminant,
-    } = quadratic(ray, sphere);
+        ..
+    } = quadratic(&Input::new(ray, sphere, |x| x));
     Coefficients {
         precision: Precision::Binary32,
         a: a.into(),

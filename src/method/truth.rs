@@ -80,11 +80,9 @@ impl Truth {
     /// The class, and both roots rounded once to binary32.
     pub fn solution(&self) -> Solution {
         match (self.near(), self.far()) {
-            (Some(near), Some(far)) => Solution {
-                class: self.class(),
-                near: near.to_f32() + 0.0,
-                far: far.to_f32() + 0.0,
-            },
+            (Some(near), Some(far)) => {
+                Solution::with_roots(self.class(), near.to_f32(), far.to_f32())
+            }
             _ => Solution::MISS,
         }
     }

@@ -120,7 +120,9 @@ impl Eye {
         let [low, high] = if self.perspective {
             // A line knows no front and back: what is behind the eye is seen upside down.
             let (a, z) = if z < 0.0 { (-a, -z) } else { (a, z) };
-            if z <= radius {
+            // Nearer than this to the plane of the eye a slope is too steep to be computed well:
+            // elsewhere its error stays below 2⁻²⁹, and `RAY_ERROR` widens it by 2⁻²⁰ or more.
+            if z <= radius * (1.0 + RAY_ERROR) {
                 return whole;
             }
             let [z_plus, z_minus] = [z + radius, z - radius];

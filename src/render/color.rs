@@ -76,7 +76,7 @@ impl ColorDepth {
     /// cells, and a run costs no bytes of colour.
     pub(super) const fn shades(self) -> u8 {
         match self {
-            Self::None | Self::Ansi16 => 4,
+            Self::None | Self::Ansi16 => 2,
             Self::Ansi256 => 12,
             Self::True => 24,
         }
@@ -84,7 +84,7 @@ impl ColorDepth {
 }
 
 /// The channel values of xterm's 6 × 6 × 6 colour cube.
-const CUBE: [u8; 6] = [0, 95, 135, 175, 215, 255];
+pub(super) const CUBE: [u8; 6] = [0, 95, 135, 175, 215, 255];
 
 fn nearest_of_256(Rgb(r, g, b): Rgb) -> u8 {
     let step = |v: u8| {
@@ -109,7 +109,7 @@ fn nearest_of_256(Rgb(r, g, b): Rgb) -> u8 {
 
 /// xterm's defaults for colours 1 to 15. Black is left out: what is hit must not vanish into the
 /// background.
-const BASIC: [Rgb; 15] = [
+pub(super) const BASIC: [Rgb; 15] = [
     Rgb(205, 0, 0),
     Rgb(0, 205, 0),
     Rgb(205, 205, 0),
@@ -139,12 +139,6 @@ fn distance(Rgb(r, g, b): Rgb, Rgb(s, h, c): Rgb) -> u32 {
     2 * square(r, s) + 4 * square(g, h) + square(b, c)
 }
 
-/// `color` with each channel multiplied by `factor`, between 0 and 1.
-pub(super) fn dimmed(Rgb(r, g, b): Rgb, factor: f32) -> Rgb {
-    let dim = |v: u8| (f32::from(v) * factor).round() as u8;
-    Rgb(dim(r), dim(g), dim(b))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -167,7 +161,7 @@ mod tests {
     #[test]
     fn a_dark_colour_is_never_shown_as_black_or_as_grey() {
         assert_ne!(nearest_of_16(Rgb(1, 1, 1)), 0);
-        let orange = dimmed(PALETTE[0], 0.4);
+        let orange = Rgb(92, 64, 0);
         assert!(nearest_of_256(orange) < 232);
     }
 }

@@ -68,6 +68,8 @@ const NOBODY: u32 = u32::MAX;
 pub struct Frame {
     size: Size,
     view: View,
+    /// What `rays` was filled from: a frame in which only spheres move keeps it.
+    camera: Option<Rays>,
     rays: Vec<Ray>,
     t: Vec<f32>,
     body: Vec<u32>,
@@ -80,6 +82,7 @@ impl Default for Frame {
         Self {
             size: Size::new(0, 0),
             view: View::default(),
+            camera: None,
             rays: Vec::new(),
             t: Vec::new(),
             body: Vec::new(),
@@ -130,12 +133,13 @@ impl Frame {
     fn reset(&mut self, rays: &Rays, view: View) {
         self.size = rays.size;
         self.view = view;
-        self.rays.clear();
-        self.rays.extend(
-            (0..rays.size.height)
-                .flat_map(|y| (0..rays.size.width).map(move |x| (x, y)))
-                .map(|(x, y)| rays.ray(x, y)),
-        );
+        if self.camera != Some(*rays) {
+            self.camera = Some(*rays);
+            self.rays.clear();
+            let pixels =
+                (0..rays.size.height).flat_map(|y| (0..rays.size.width).map(move |x| (x, y)));
+            self.rays.extend(pixels.map(|(x, y)| rays.ray(x, y)));
+        }
         let pixels = rays.size.area();
         refill(&mut self.t, pixels, f32::INFINITY);
         refill(&mut self.body, pixels, NOBODY);

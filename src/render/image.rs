@@ -1,6 +1,7 @@
 //! The image: cells of a character and two colours, drawn from a frame in a style.
 
-use super::color::{color_of, dimmed};
+use super::color::color_of;
+use super::ramp::Ramps;
 use super::{ColorDepth, Contact, Frame, Style, View};
 use crate::scene::{Rgb, Scene};
 
@@ -49,7 +50,7 @@ impl Cell {
 }
 
 /// The cells of a picture, row by row.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct Image {
     /// Cells in a row.
     pub cols: u32,
@@ -57,6 +58,7 @@ pub struct Image {
     pub rows: u32,
     /// `cols` × `rows` cells.
     pub cells: Vec<Cell>,
+    ramps: Ramps,
 }
 
 impl Image {
@@ -68,7 +70,13 @@ impl Image {
     /// Draws `frame`, which was rendered from `scene`, in the place of what was here.
     pub fn draw(&mut self, frame: &Frame, scene: &Scene, look: Look) {
         let (cols, rows) = look.style.cells_of(frame.size());
-        let painter = Painter { frame, scene, look };
+        self.ramps.set_depth(look.depth);
+        let mut painter = Painter {
+            frame,
+            scene,
+            look,
+            ramps: &mut self.ramps,
+        };
         (self.cols, self.rows) = (cols, rows);
         self.cells.clear();
         self.cells.extend(
@@ -111,10 +119,11 @@ struct Painter<'a> {
     frame: &'a Frame,
     scene: &'a Scene,
     look: Look,
+    ramps: &'a mut Ramps,
 }
 
 impl Painter<'_> {
-    fn cell(&self, col: u32, row: u32) -> Cell {
+    fn cell(&mut self, col: u32, row: u32) -> Cell {
         let (x, y) = self.look.style.pixel_of_cell(col, row);
         match self.look.style {
             Style::Half => self.half(x, y),
@@ -125,16 +134,19 @@ impl Painter<'_> {
     }
 
     /// What is to be seen at pixel (x, y); nothing where nothing is.
-    fn ink(&self, x: u32, y: u32) -> Option<Ink> {
+    fn ink(&mut self, x: u32, y: u32) -> Option<Ink> {
         let contact = self.frame.contact(x, y);
         let brightness = match self.frame.view() {
             _ if contact == Contact::Miss => return None,
             _ if contact == Contact::Nan => 1.0,
-            View::Shade => self.quantised(self.frame.brightness(x, y)),
+            View::Shade => self.frame.brightness(x, y),
             View::Class => 1.0,
             View::Outline if self.frame.outline(x, y) => 1.0,
             View::Outline => return None,
         };
+        if self.dithers() && contact != Contact::Nan && !self.has_dot(x, y) {
+            return None;
+        }
         let color = (self.look.depth != ColorDepth::None).then(|| match self.frame.view() {
             View::Shade | View::Outline if contact != Contact::Nan => self.color(x, y, brightness),
             _ => class_color(contact),
@@ -146,22 +158,32 @@ impl Painter<'_> {
         })
     }
 
-    /// The middle of the step, of as many as are told apart, in which `brightness` lies.
-    fn quantised(&self, brightness: f32) -> f32 {
-        let steps = f32::from(self.look.depth.shades());
-        let step = (brightness * steps).floor().min(steps - 1.0);
-        (step + 0.5) / steps
+    /// Whether shades are shown by how many dots there are, for want of colours.
+    fn dithers(&self) -> bool {
+        let Look { style, depth, .. } = self.look;
+        let view = self.frame.view();
+        (style, depth, view) == (Style::Braille, ColorDepth::None, View::Shade)
     }
 
-    /// The colour of the sphere seen at pixel (x, y), dimmed to `brightness`.
-    fn color(&self, x: u32, y: u32, brightness: f32) -> Rgb {
+    /// Whether the hit at pixel (x, y) is bright enough for its place in the pattern, or an edge:
+    /// the edges keep dark spheres whole and apart.
+    fn has_dot(&self, x: u32, y: u32) -> bool {
+        let rank = BAYER[y as usize % 4][x as usize % 4];
+        let threshold = (f32::from(rank) + 0.5) / 16.0;
+        self.frame.brightness(x, y) > threshold || self.frame.outline(x, y)
+    }
+
+    /// The colour of the sphere seen at pixel (x, y), in the shade of this brightness.
+    fn color(&mut self, x: u32, y: u32, brightness: f32) -> Rgb {
         let seen = self.frame.hit(x, y).map_or(0, |hit| hit.body as usize);
         let base = self.scene.bodies.get(seen).map(|b| color_of(seen, b));
-        // Brightness is light; the channels of a colour are about its square root.
-        dimmed(base.unwrap_or(Rgb(255, 255, 255)), brightness.sqrt())
+        let base = base.unwrap_or(Rgb(255, 255, 255));
+        let shades = self.ramps.of(base);
+        let shade = (brightness * shades.len() as f32) as usize;
+        shades[shade.min(shades.len() - 1)]
     }
 
-    fn ascii(&self, x: u32, y: u32) -> Cell {
+    fn ascii(&mut self, x: u32, y: u32) -> Cell {
         let Some(ink) = self.ink(x, y) else {
             let miss = self.frame.view() == View::Class;
             return Cell::plain(if miss { '.' } else { ' ' });
@@ -184,7 +206,7 @@ impl Painter<'_> {
         }
     }
 
-    fn half(&self, x: u32, y: u32) -> Cell {
+    fn half(&mut self, x: u32, y: u32) -> Cell {
         let (top, bottom) = (self.ink(x, y), self.ink(x, y + 1));
         if is_nan(top) || is_nan(bottom) {
             return Cell::of(NO_ANSWER, self.nan_color());
@@ -214,7 +236,7 @@ impl Painter<'_> {
         (self.look.depth != ColorDepth::None).then(|| class_color(Contact::Nan))
     }
 
-    fn braille(&self, x: u32, y: u32) -> Cell {
+    fn braille(&mut self, x: u32, y: u32) -> Cell {
         let mut dots = 0;
         let mut seen: Option<Ink> = None;
         for (dx, dy, dot) in DOTS {
@@ -317,6 +339,9 @@ const fn ascii_for_half(block: char) -> char {
     }
 }
 
+/// Bayer's order in which the dots of a 4 × 4 block light up as it gets brighter.
+const BAYER: [[u8; 4]; 4] = [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
+
 /// Column, row and bit of the dots of a braille cell.
 const DOTS: [(u32, u32, u32); 8] = [
     (0, 0, 0x01),
@@ -336,5 +361,205 @@ const fn ascii_for_dots(dots: u32) -> char {
         3 | 4 => ':',
         5 | 6 => 'o',
         _ => '#',
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+    use crate::geometry::Sphere;
+    use crate::method::Method;
+    use crate::scene::{Body, Camera, PixelShape, Projection, Rays, Size};
+
+    /// Before the eye one sphere on another, beside them one behind the eye, all of which exact
+    /// integers touch; nothing else.
+    fn scene() -> Scene {
+        let bodies = [[6.0, 6.0, 20.0], [9.0, 7.0, 12.0], [20.0, 9.0, -9.0]];
+        let body = |center: [f32; 3]| Body {
+            sphere: Sphere::new(center.into(), 5.0).expect("a sphere"),
+            name: None,
+            color: None,
+        };
+        Scene {
+            name: "test".into(),
+            about: None,
+            camera: Camera {
+                projection: Projection::Orthographic {
+                    extent: [26.0, 16.0],
+                },
+                position: Vec3::new(12.5, 7.5, 0.0),
+                look_at: Vec3::new(12.5, 7.5, 1.0),
+                up: Vec3::NEG_Y,
+            },
+            pixels: Some(Size::new(26, 16)),
+            bodies: bodies.map(body).into(),
+            light: None,
+            probes: Vec::new(),
+        }
+    }
+
+    fn frame_of(scene: &Scene, view: View) -> Frame {
+        let mut frame = Frame::new();
+        let rays = Rays::new(&scene.camera, Size::new(26, 16), PixelShape::Own);
+        frame.render(scene, &rays, Method::Textbook, view);
+        frame
+    }
+
+    fn drawn(view: View, style: Style, depth: ColorDepth) -> (Frame, Image) {
+        let scene = scene();
+        let frame = frame_of(&scene, view);
+        let mut image = Image::new();
+        let look = Look {
+            style,
+            depth,
+            ascii_only: false,
+        };
+        image.draw(&frame, &scene, look);
+        (frame, image)
+    }
+
+    fn pixels(frame: &Frame) -> impl Iterator<Item = (u32, u32)> + use<> {
+        let Size { width, height } = frame.size();
+        (0..height).flat_map(move |y| (0..width).map(move |x| (x, y)))
+    }
+
+    fn cell_at(image: &Image, style: Style, x: u32, y: u32) -> Cell {
+        let (col, row) = style.cell_of_pixel(x, y);
+        image.cell(col, row).expect("a cell")
+    }
+
+    #[test]
+    fn a_half_block_says_of_each_of_its_pixels_whether_it_is_hit() {
+        for depth in ColorDepth::ALL {
+            let (frame, image) = drawn(View::Shade, Style::Half, depth);
+            for (x, y) in pixels(&frame) {
+                let cell = cell_at(&image, Style::Half, x, y);
+                let shows = match cell.glyph {
+                    '█' => true,
+                    '▀' => y % 2 == 0 || cell.bg.is_some(),
+                    '▄' => y % 2 == 1,
+                    ' ' => false,
+                    other => panic!("{other}"),
+                };
+                assert_eq!(shows, frame.hit(x, y).is_some(), "{depth:?} ({x}, {y})");
+                assert_eq!(
+                    cell.fg.is_some(),
+                    depth != ColorDepth::None && cell.glyph != ' '
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_half_block_tells_the_classes_of_its_pixels_without_colour() {
+        let (frame, image) = drawn(View::Class, Style::Half, ColorDepth::None);
+        for (x, y) in pixels(&frame) {
+            let glyph = cell_at(&image, Style::Half, x, y).glyph;
+            let of = |contact| {
+                quarters(Some(Ink {
+                    contact,
+                    brightness: 1.0,
+                    color: None,
+                }))
+            };
+            let shown = of(frame.contact(x, y));
+            let fits = |other: usize| match y % 2 {
+                0 => quadrants(shown, other) == glyph,
+                _ => quadrants(other, shown) == glyph,
+            };
+            assert!((0..4).any(fits), "{glyph} at ({x}, {y})");
+        }
+        let mut blocks: Vec<_> = (0..16).map(|i| quadrants(i / 4, i % 4)).collect();
+        blocks.sort_unstable();
+        blocks.dedup();
+        assert_eq!(blocks.len(), 16, "two pairs of classes look the same");
+    }
+
+    #[test]
+    fn braille_has_a_dot_for_each_hit_and_without_colour_for_each_edge() {
+        let dot = |image: &Image, x: u32, y: u32| {
+            let glyph = cell_at(image, Style::Braille, x, y).glyph;
+            let (_, _, bit) = DOTS[DOTS
+                .iter()
+                .position(|&(dx, dy, _)| (dx, dy) == (x % 2, y % 4))
+                .expect("a dot")];
+            glyph != ' ' && (glyph as u32 - 0x2800) & bit != 0
+        };
+        let (frame, image) = drawn(View::Shade, Style::Braille, ColorDepth::Ansi256);
+        for (x, y) in pixels(&frame) {
+            assert_eq!(dot(&image, x, y), frame.hit(x, y).is_some());
+        }
+        let (frame, image) = drawn(View::Shade, Style::Braille, ColorDepth::None);
+        for (x, y) in pixels(&frame) {
+            assert!(!dot(&image, x, y) || frame.hit(x, y).is_some());
+            assert!(dot(&image, x, y) || !frame.outline(x, y));
+        }
+        let (frame, image) = drawn(View::Outline, Style::Braille, ColorDepth::True);
+        for (x, y) in pixels(&frame) {
+            assert_eq!(dot(&image, x, y), frame.outline(x, y));
+        }
+    }
+
+    #[test]
+    fn an_edge_belongs_to_the_nearer_sphere() {
+        let frame = frame_of(&scene(), View::Outline);
+        for (x, y) in pixels(&frame).filter(|&(x, y)| frame.outline(x, y)) {
+            let here = frame.hit(x, y).expect("an edge is of a hit");
+            let around = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)];
+            let beyond = |(x, y)| frame.hit(x, y).is_none_or(|there| there.t > here.t);
+            assert!(around.into_iter().any(beyond), "({x}, {y})");
+        }
+        // Where the two meet on the row through both, the farther one has no edge of its own.
+        assert!(frame.outline(4, 7) && !frame.outline(3, 7));
+    }
+
+    #[test]
+    fn ascii_tells_every_contact_apart() {
+        let (frame, image) = drawn(View::Class, Style::Ascii, ColorDepth::None);
+        let mut seen: Vec<_> = pixels(&frame)
+            .map(|(x, y)| {
+                (
+                    frame.contact(x, y),
+                    cell_at(&image, Style::Ascii, x, y).glyph,
+                )
+            })
+            .collect();
+        seen.sort_unstable();
+        seen.dedup();
+        assert_eq!(
+            seen,
+            [
+                (Contact::Miss, '.'),
+                (Contact::TangentBehind, '~'),
+                (Contact::SecantBehind, '-'),
+                (Contact::Tangent, 'o'),
+                (Contact::Secant, '#')
+            ]
+        );
+    }
+
+    #[test]
+    fn where_a_method_has_no_answer_every_style_says_so() {
+        let mut scene = scene();
+        // B² and 4AC overflow: ∞ − ∞ is not a number.
+        scene.bodies = vec![Body {
+            sphere: Sphere::new(Vec3::new(0.0, 0.0, 1e30), 1.0).expect("a sphere"),
+            name: None,
+            color: None,
+        }];
+        for view in View::ALL {
+            let frame = frame_of(&scene, view);
+            for style in Style::ALL {
+                let mut image = Image::new();
+                let look = Look {
+                    style,
+                    ..Look::default()
+                };
+                image.draw(&frame, &scene, look);
+                assert!(image.cells.iter().all(|cell| cell.glyph == NO_ANSWER));
+            }
+        }
     }
 }

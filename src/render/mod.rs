@@ -7,6 +7,7 @@ mod bounds;
 mod color;
 mod frame;
 mod image;
+mod ramp;
 mod shade;
 mod style;
 mod view;

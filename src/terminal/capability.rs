@@ -61,6 +61,19 @@ impl Capability {
         Self::of(&Environment::of_process())
     }
 
+    /// What can be written to standard output, wherever it goes: no colours but on a terminal.
+    pub fn of_output() -> Self {
+        let environment = Environment::of_process();
+        Self::of(&environment)
+            .ok()
+            .filter(|_| io::stdout().is_terminal())
+            .unwrap_or(Self {
+                depth: ColorDepth::None,
+                depth_reason: "the output does not go to a terminal that has any",
+                glyphs: environment.glyphs(),
+            })
+    }
+
     fn of(environment: &Environment) -> Result<Self, Unfit> {
         let term = environment.term.as_deref().unwrap_or("dumb");
         if term == "dumb" {
