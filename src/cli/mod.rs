@@ -64,7 +64,7 @@ fn aspect(text: &str) -> Result<f64, String> {
 }
 
 /// Writes to standard output. Whoever closes it early has seen enough.
-fn print(text: &str) -> ExitCode {
+fn write_out(text: &str) -> ExitCode {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
         Ok(()) => ExitCode::SUCCESS,

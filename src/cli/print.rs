@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use clap::{Args, ValueEnum};
 use crossterm::terminal::window_size;
 
-use super::{INVALID, MISUSED, aspect, choice, complain};
+use super::{INVALID, MISUSED, aspect, choice, complain, write_out};
 use crate::explain::{self, Digits, Glyphs, Reading};
 use crate::method::Method;
 use crate::render::{
@@ -65,7 +65,7 @@ enum ColorChoice {
 /// Draws the scene, or reads one pixel of it, and ends with the exit status.
 pub(super) fn run(arguments: &Print) -> ExitCode {
     match text(arguments) {
-        Ok(text) => super::print(&text),
+        Ok(text) => write_out(&text),
         Err((status, sentence)) => {
             complain(sentence);
             ExitCode::from(status)

@@ -4,7 +4,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use super::{choice, print};
+use super::{choice, write_out};
 use crate::scene::Builtin;
 
 /// Lists the built-in scenes, or prints one as a scene file
@@ -17,8 +17,8 @@ pub(super) struct Scenes {
 
 pub(super) fn run(arguments: &Scenes) -> ExitCode {
     match arguments.name {
-        Some(builtin) => print(&builtin.scene().to_toml()),
-        None => print(&list()),
+        Some(builtin) => write_out(&builtin.scene().to_toml()),
+        None => write_out(&list()),
     }
 }
 
