@@ -20,7 +20,7 @@ use super::value::{self, Number, Refused};
 use super::{Aim, Body, Camera, Light, Probe, Projection, Scene, Size};
 use crate::geometry::Sphere;
 
-/// The largest scene file that is read, in bytes; a million spheres need about a quarter of it.
+/// The largest scene file that is read, in bytes; a million spheres need about a third of it.
 pub const LARGEST_FILE: u64 = 256 << 20;
 
 /// A scene file that could not be read, or is no scene: one sentence when displayed.
