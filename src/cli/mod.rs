@@ -3,6 +3,7 @@
 mod explore;
 mod print;
 mod scenes;
+mod solve;
 
 use std::fmt;
 use std::io::{ErrorKind, Write};
@@ -26,6 +27,8 @@ struct Arguments {
 enum Command {
     Print(print::Print),
     Scenes(scenes::Scenes),
+    /// Work out where a line meets a sphere, step by step, or for a whole file of them
+    Solve(solve::Arguments),
 }
 
 /// Runs the program with the arguments of this process.
@@ -35,6 +38,7 @@ pub fn main() -> ExitCode {
         None => explore::run(&arguments.explore),
         Some(Command::Print(arguments)) => print::run(&arguments),
         Some(Command::Scenes(arguments)) => scenes::run(&arguments),
+        Some(Command::Solve(arguments)) => solve::run(&arguments),
     }
 }
 
