@@ -144,6 +144,10 @@ fn screens_at_80_by_24_and_160_by_50() {
         for scene in ["seed", "trio"] {
             let screen = Person::opens(scene, cols, rows).screen();
             insta::assert_snapshot!(format!("{scene}_{cols}x{rows}"), screen);
+            let steps = Person::opens(scene, cols, rows)
+                .presses("enter . . . . . . . .")
+                .screen();
+            insta::assert_snapshot!(format!("{scene}_steps_{cols}x{rows}"), steps);
         }
     }
     insta::assert_snapshot!(
@@ -352,6 +356,57 @@ fn all_spheres_of_a_line_are_listed_and_one_can_be_chosen() {
         first,
         "moving on shows the nearest hit again"
     );
+}
+
+#[test]
+fn a_person_walks_through_the_derivation_and_back() {
+    let mut person = Person::opens("seed", 80, 24);
+    let before = person.screen();
+    person.presses("enter").shows("step 1 of");
+    let first = person.screen();
+    for (step, result) in [("A", "= 1"), ("B", "= −40"), ("C", "= 300"), ("Δ", "= 400")] {
+        person.commands(&format!("step {step}")).shows(result);
+    }
+    person.presses("> ,").shows("shade");
+    person.presses("<");
+    assert_eq!(person.screen(), first, "stepping back restores the screen");
+    person.presses("1");
+    assert_eq!(person.screen(), before);
+}
+
+#[test]
+fn moving_on_keeps_the_step_and_marks_what_changed() {
+    let mut person = Person::opens("seed", 80, 24);
+    person.commands("step C").presses("right");
+    person.shows(": C");
+    person.shows("= 301");
+    person.shows("[C*]");
+    person.shows(" A ");
+}
+
+#[test]
+fn predicting_hides_the_answer_until_it_is_given() {
+    let mut person = Person::opens("seed", 80, 24);
+    person.commands("step Δ").presses("P");
+    person.shows("Is Δ negative, zero or positive?");
+    assert!(!person.screen().contains("= 400"));
+    person.presses("-").shows("It is positive");
+    person.shows("= 400");
+    person
+        .commands("step verdict")
+        .presses("2")
+        .shows("Yes, two. 1 of 2 foreseen.");
+    person.presses("enter").shows("Which root is seen?");
+    person.presses("enter").shows("hit: the near point is seen");
+}
+
+#[test]
+fn the_board_shows_one_step_and_hides_its_answer() {
+    let mut person = Person::opens("seed", 80, 24);
+    person.commands("step C").presses("O");
+    assert!(!person.screen().contains("300"));
+    person.presses("enter").shows("300");
+    person.presses("O").shows("view 40×40");
 }
 
 #[test]
