@@ -326,3 +326,35 @@ fn a_bad_number_is_named_and_a_bad_command_line_is_told_apart() {
         assert_eq!(solve(arguments, "").status, 2, "{arguments:?}");
     }
 }
+
+/// Every named case by the default method, to the bit, with the file's own columns in their places.
+#[test]
+fn batch_gives_every_named_case_its_exact_answer() {
+    let run = solve(&["--batch", "tests/cases/named.csv"], "");
+    assert_eq!((run.status, run.err.as_str()), (0, ""));
+    let given = std::fs::read_to_string("tests/cases/named.csv").unwrap();
+    let mut out = csv::Reader::from_reader(run.out.as_bytes());
+    let column =
+        |name: &str, names: &csv::StringRecord| names.iter().position(|n| n == name).unwrap();
+    let names = out.headers().unwrap().clone();
+    let pairs = [
+        ("class", "expected_class"),
+        ("near", "expected_near"),
+        ("far", "expected_far"),
+    ]
+    .map(|(found, expected)| (column(found, &names), column(expected, &names)));
+    let mut rows = 0;
+    for row in out.records() {
+        let row = row.unwrap();
+        assert_eq!(row[pairs[0].0], row[pairs[0].1], "{}", &row[0]);
+        for (found, expected) in &pairs[1..] {
+            let bits = |text: &str| text.parse::<f32>().map(f32::to_bits).ok();
+            assert_eq!(bits(&row[*found]), bits(&row[*expected]), "{}", &row[0]);
+        }
+        rows += 1;
+    }
+    assert_eq!(rows, 51);
+    for (given, out) in given.lines().zip(run.out.lines()) {
+        assert!(out.starts_with(&format!("{given},")), "{out}");
+    }
+}

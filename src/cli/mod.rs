@@ -27,8 +27,7 @@ struct Arguments {
 enum Command {
     Print(print::Print),
     Scenes(scenes::Scenes),
-    /// Work out where a line meets a sphere, step by step, or for a whole file of them
-    Solve(solve::Arguments),
+    Solve(solve::Solve),
 }
 
 /// Runs the program with the arguments of this process.

@@ -6,6 +6,7 @@
 mod citardauq;
 mod double;
 mod dyadic;
+pub mod exact;
 pub mod format;
 mod haines;
 mod kahan;
@@ -30,7 +31,6 @@ use crate::geometry::{Ray, Sphere};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Method {
     /// B² − 4AC and (−B ± √Δ)/2A in binary32, operation for operation as in the tutorial.
-    #[default]
     Textbook,
     /// b² − AC with b = B/2, and the q-form's roots q/A and C/q, in binary32.
     Citardauq,
@@ -40,16 +40,20 @@ pub enum Method {
     Kahan,
     /// A r² − ‖o × d‖², Lagrange's identity, and the q-form's roots, in binary64 inside.
     Double,
+    /// The exact class, and both roots rounded once, by as many stages as the ray needs.
+    #[default]
+    Exact,
 }
 
 impl Method {
     /// All methods, in the order in which lists show them.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Textbook,
         Self::Citardauq,
         Self::Haines,
         Self::Kahan,
         Self::Double,
+        Self::Exact,
     ];
 
     /// The name on the command line, in files and on the screen.
@@ -60,6 +64,7 @@ impl Method {
             Self::Haines => "haines",
             Self::Kahan => "kahan",
             Self::Double => "double",
+            Self::Exact => "exact",
         }
     }
 
@@ -76,6 +81,7 @@ impl Method {
             Self::Haines => haines::solve(ray, sphere),
             Self::Kahan => kahan::solve(ray, sphere),
             Self::Double => double::solve(ray, sphere),
+            Self::Exact => exact::solve(ray, sphere),
         }
     }
 
@@ -87,6 +93,7 @@ impl Method {
             Self::Haines => haines::coefficients(ray, sphere),
             Self::Kahan => kahan::coefficients(ray, sphere),
             Self::Double => double::coefficients(ray, sphere),
+            Self::Exact => exact::coefficients(ray, sphere),
         }
     }
 
@@ -102,6 +109,7 @@ impl Method {
             Self::Haines => haines::steps(ray, sphere, truth),
             Self::Kahan => kahan::steps(ray, sphere, truth),
             Self::Double => double::steps(ray, sphere, truth),
+            Self::Exact => trace::exact::steps(ray, sphere, truth),
         }
     }
 }

@@ -5,6 +5,7 @@
 //! implementation of any formula.
 
 mod build;
+pub(super) mod exact;
 mod loss;
 
 use std::fmt;
@@ -40,6 +41,12 @@ impl Measured {
     /// Whether the number is what it should be, to the last bit there is.
     pub fn is_exact(&self) -> bool {
         self.ulps() == Some(0.0) && self.value.is_finite()
+    }
+
+    /// Whether the number is the exact value rounded once.
+    pub fn is_correctly_rounded(&self) -> bool {
+        let exact = self.exact.as_ref();
+        exact.is_some_and(|exact| exact.round(self.precision) == self.value)
     }
 
     /// The shortest decimal that reads back as the number.
@@ -335,6 +342,10 @@ mod tests {
                 let k = method.coefficients(&ray, &sphere);
                 let wanted = [k.a, k.b, k.c, k.discriminant];
                 for ((symbol, factor), wanted) in steps_of(method).into_iter().zip(wanted) {
+                    if method == Method::Exact {
+                        // Its coefficients are rounded from the exact ones; its steps are stage 1.
+                        break;
+                    }
                     let part = &trace.step(symbol).unwrap().result.parts()[0];
                     let found = match part.precision {
                         Precision::Binary32 => f64::from(part.value as f32 * factor as f32),
@@ -360,7 +371,12 @@ mod tests {
             for method in Method::ALL {
                 let trace = method.trace(&ray, &sphere);
                 for ((symbol, factor), wanted) in steps_of(method).into_iter().zip(&wanted) {
-                    let part = &trace.step(symbol).unwrap().result.parts()[0];
+                    let Some(step) = trace.step(symbol) else {
+                        // Of a miss `exact` asks no more than D.
+                        prop_assert!(method == Method::Exact && truth.class() == Class::Miss);
+                        continue;
+                    };
+                    let part = &step.result.parts()[0];
                     let factor = Surd::from_f64(factor).unwrap();
                     let found = part.exact.as_ref().unwrap().checked_mul(&factor).unwrap();
                     let off = found.checked_sub(&Surd::from(wanted.clone())).unwrap();
@@ -398,14 +414,19 @@ mod tests {
                 Method::Haines => include_str!("haines.rs"),
                 Method::Kahan => include_str!("kahan.rs"),
                 Method::Double => include_str!("double.rs"),
+                Method::Exact => include_str!("exact/binary64.rs"),
             },
-            include_str!("q_form.rs"),
+            match method {
+                Method::Exact => include_str!("exact/mod.rs"),
+                _ => include_str!("q_form.rs"),
+            },
         ]
         .map(|file| {
+            // What a file says of its steps does not count.
             let steps = file
                 .find("fn coefficient_steps")
                 .or(file.find("pub(super) fn steps"));
-            file[..steps.unwrap()].to_owned()
+            &file[..steps.unwrap_or(file.len())]
         })
         .concat()
     }
@@ -419,9 +440,14 @@ mod tests {
                 [[3.0, 0.5, 0.0], [1.0, 0.0, 0.0]],
                 [[3.0, 1.0, 0.0], [1.0, 0.0, 0.0]],
                 [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0]],
+                [[-3.0, 1.0, 0.0], [1.0, 1e-45, 0.0]],
+                [[-16_777_218.0, 1e-30, 0.0], [1.0, 0.0, 0.0]],
+                [[0.7, 0.714_142_8, 1e-30], [1.0, 0.1, 0.0]],
             ];
             for [p0, d] in places {
-                for step in trace(method, p0, d, [0.0; 3], 1.0).steps {
+                let steps = trace(method, p0, d, [0.0; 3], 1.0).steps;
+                assert!(!steps.is_empty());
+                for step in steps {
                     assert!(source.contains(step.code), "{method}: {}", step.code);
                 }
             }
@@ -523,6 +549,50 @@ mod tests {
         let near = ground.near.clone().unwrap();
         assert!(near.ulps().unwrap() > 1.0);
         assert_eq!(near.exact.unwrap().to_f32(), ground.truth.near);
+    }
+
+    #[test]
+    fn exact_says_which_stage_settled_what() {
+        let plain = trace(
+            Method::Exact,
+            [-3.0, 0.5, 0.25],
+            [1.0, 0.0, 0.0],
+            [0.0; 3],
+            1.0,
+        );
+        assert!(
+            plain
+                .step("E")
+                .unwrap()
+                .numbers
+                .ends_with("the sign of D is certain")
+        );
+        assert_eq!(plain.step("near").unwrap().numbers, "settled by binary64");
+        let tangent = trace(
+            Method::Exact,
+            [-3.0, 1.0, 0.0],
+            [1.0, 0.0, 0.0],
+            [0.0; 3],
+            1.0,
+        );
+        assert!(
+            tangent
+                .step("E")
+                .unwrap()
+                .numbers
+                .ends_with("the sign of D is open")
+        );
+        let whole = tangent.step("D, in whole numbers").unwrap();
+        assert_eq!(whole.numbers, "tangent, near 3, far 3");
+        let tilted = trace(
+            Method::Exact,
+            [-3.0, 1.0, 0.0],
+            [1.0, 1e-45, 0.0],
+            [0.0; 3],
+            1.0,
+        );
+        assert_eq!(tilted.step("D, integers").unwrap().numbers, "a miss");
+        assert_eq!(tilted.truth.class, Class::Miss);
     }
 
     #[test]

@@ -1,10 +1,7 @@
 //! `solve --ray … --sphere …`: the derivation of one intersection, as text or as JSON.
 
 use std::fmt::{self, Write as _};
-use std::io::{self, Write as _};
-use std::process::ExitCode;
 
-use super::super::{INVALID, complain};
 use super::{Format, input, json};
 use crate::geometry::{Ray, Sphere};
 use crate::method::format::{Signs, binary32};
@@ -14,27 +11,19 @@ use crate::method::{Class, Method};
 /// Digits of exact values in the text.
 const DIGITS: usize = 25;
 
-/// Writes the derivation of one intersection to standard output.
-pub(super) fn run(ray: &str, sphere: &str, method: Method, format: Format) -> ExitCode {
-    let (ray, sphere) = match input::ray_and_sphere(ray, sphere) {
-        Ok(both) => both,
-        Err(reason) => {
-            complain(reason);
-            return INVALID.into();
-        }
-    };
+/// The derivation of one intersection, or what is wrong with the numbers.
+pub(super) fn written(
+    ray: &str,
+    sphere: &str,
+    method: Method,
+    format: Format,
+) -> Result<String, String> {
+    let (ray, sphere) = input::ray_and_sphere(ray, sphere)?;
     let trace = method.trace(&ray, &sphere);
-    let written = match format {
+    Ok(match format {
         Format::Text => text(&ray, &sphere, &trace),
         Format::Json => json::text(&ray, &sphere, &trace),
-    };
-    match io::stdout().lock().write_all(written.as_bytes()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            complain(format_args!("cannot write the answer: {error}"));
-            INVALID.into()
-        }
-        _ => ExitCode::SUCCESS,
-    }
+    })
 }
 
 fn text(ray: &Ray, sphere: &Sphere, trace: &Trace) -> String {
@@ -81,6 +70,9 @@ fn write_answer(out: &mut String, trace: &Trace, signs: Signs) -> fmt::Result {
                 Some(0.0) => writeln!(out, "{name} = {value}, exactly"),
                 Some(ulps) => {
                     let exact = root.exact_text(DIGITS, signs).unwrap_or_default();
+                    if root.is_correctly_rounded() {
+                        return writeln!(out, "{name} = {value}, {exact} rounded once");
+                    }
                     let ulps = trace::ulps_text(ulps, signs);
                     writeln!(out, "{name} = {value}, {ulps} ulp from {exact}")
                 }

@@ -92,10 +92,10 @@ impl<'t> Steps<'t> {
             texts: HashMap::new(),
             names: HashMap::new(),
         };
-        steps.name_vector("p0", input.p0);
-        steps.name_vector("d", input.d);
-        steps.name_vector("c", input.center);
-        steps.name("r", input.r);
+        steps.name_vector("p0", input.p0, input_text);
+        steps.name_vector("d", input.d, input_text);
+        steps.name_vector("c", input.center, input_text);
+        steps.name("r", input.r, input_text);
         steps
     }
 
@@ -107,14 +107,14 @@ impl<'t> Steps<'t> {
     /// A step that gives a number.
     pub fn scalar<F: Float>(&mut self, line: Line, value: Traced<'t, F>) {
         let losses = self.losses(&[value]);
-        self.name(line.symbol, value);
+        self.name(line.symbol, value, text);
         self.push(line, Quantity::Scalar(measured(value)), losses);
     }
 
     /// A step that gives a vector.
     pub fn vector<F: Float>(&mut self, line: Line, value: [Traced<'t, F>; 3]) {
         let losses = self.losses(&value);
-        self.name_vector(line.symbol, value);
+        self.name_vector(line.symbol, value, text);
         self.push(
             line,
             Quantity::Vector(Box::new(value.map(measured))),
@@ -126,7 +126,7 @@ impl<'t> Steps<'t> {
     /// rounded numbers took.
     pub fn root<F: Float>(&mut self, line: Line, value: Traced<'t, F>, exact: Option<Surd>) {
         let losses = self.losses(&[value]);
-        self.name(line.symbol, value);
+        self.name(line.symbol, value, text);
         let root = Measured {
             exact,
             ..measured(value)
@@ -156,19 +156,29 @@ impl<'t> Steps<'t> {
         });
     }
 
-    fn name<F: Float>(&mut self, symbol: &str, value: Traced<'t, F>) {
+    fn name<F: Float>(
+        &mut self,
+        symbol: &str,
+        value: Traced<'t, F>,
+        text: impl Fn(Traced<'t, F>) -> String,
+    ) {
         self.texts.insert(symbol.to_owned(), text(value));
         if let Operand::Entry(entry) = value.operand() {
             self.names.insert(entry, symbol.to_owned());
         }
     }
 
-    fn name_vector<F: Float>(&mut self, symbol: &str, value: [Traced<'t, F>; 3]) {
-        let [x, y, z] = value.map(text);
+    fn name_vector<F: Float>(
+        &mut self,
+        symbol: &str,
+        value: [Traced<'t, F>; 3],
+        text: impl Fn(Traced<'t, F>) -> String,
+    ) {
+        let [x, y, z] = value.map(&text);
         self.texts
             .insert(symbol.to_owned(), format!("({x}, {y}, {z})"));
         for (axis, component) in AXES.into_iter().zip(value) {
-            self.name(&format!("{symbol}.{axis}"), component);
+            self.name(&format!("{symbol}.{axis}"), component, &text);
         }
     }
 
@@ -244,6 +254,11 @@ fn measured<F: Float>(value: Traced<'_, F>) -> Measured {
         precision: F::PRECISION,
         exact: value.exact(),
     }
+}
+
+/// An input is a binary32, whatever the method computes with.
+fn input_text<F: Float>(value: Traced<'_, F>) -> String {
+    number::<f32>(value.value().into())
 }
 
 fn text<F: Float>(value: Traced<'_, F>) -> String {
