@@ -10,7 +10,7 @@ use ratatui::layout::Rect;
 use rayscope::explorer::action::{Action, markdown};
 use rayscope::explorer::{Explorer, Options};
 use rayscope::method::Method;
-use rayscope::render::ColorDepth;
+use rayscope::render::{ColorDepth, Style};
 use rayscope::scene::Scene;
 
 /// An explorer with a screen.
@@ -411,21 +411,36 @@ fn the_board_shows_one_step_and_hides_its_answer() {
 
 #[test]
 fn the_guide_lists_the_keys_that_there_are() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/guide.md");
-    let guide = fs::read_to_string(path).unwrap();
-    let (before, rest) = guide.split_once("<!-- keys -->\n").expect("the keys' mark");
-    let (listed, after) = rest
-        .split_once("<!-- end of keys -->")
-        .expect("the end's mark");
+    hold_to_docs("docs/guide.md", "keys", &markdown());
+}
+
+#[test]
+fn the_readme_shows_the_real_screen() {
+    let options = Options {
+        style: Style::Ascii,
+        ..Options::default()
+    };
+    let screen = Person::with("trio", 80, 24, options).screen();
+    hold_to_docs("README.md", "screen", &format!("```text\n{screen}```\n"));
+}
+
+/// What stands between the marks `NAME` and `end of NAME` of a page is `text`.
+fn hold_to_docs(page: &str, name: &str, text: &str) {
+    let path = format!("{}/{page}", env!("CARGO_MANIFEST_DIR"));
+    let whole = fs::read_to_string(&path).expect("a page");
+    let marks = [
+        format!("<!-- {name} -->\n"),
+        format!("<!-- end of {name} -->"),
+    ];
+    let (before, rest) = whole.split_once(&marks[0]).expect("the first mark");
+    let (found, after) = rest.split_once(&marks[1]).expect("the second mark");
     if std::env::var_os("RAYSCOPE_UPDATE_DOCS").is_some() {
-        let keys = markdown();
-        let fresh = format!("{before}<!-- keys -->\n{keys}<!-- end of keys -->{after}");
-        fs::write(path, fresh).unwrap();
+        let fresh = format!("{before}{}{text}{}{after}", marks[0], marks[1]);
+        fs::write(path, fresh).expect("the page written");
     } else {
         assert_eq!(
-            listed,
-            markdown(),
-            "RAYSCOPE_UPDATE_DOCS=1 cargo test rewrites it"
+            found, text,
+            "RAYSCOPE_UPDATE_DOCS=1 cargo test rewrites {page}"
         );
     }
 }

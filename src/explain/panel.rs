@@ -252,24 +252,29 @@ fn coefficient_lines(
 /// What the number should be, and how far off it is; nothing if it is right.
 fn exact_line(measured: &Measured, width: usize) -> Option<Line> {
     let ulps = measured.ulps().filter(|&ulps| ulps != 0.0)?;
-    let off = format!("  {} ulp off", ulps_text(ulps, SIGNS));
-    let lead = "exactly ";
-    let room = width.saturating_sub(SUBSTITUTED + lead.len() + off.chars().count());
-    let exact = measured.exact_text(room.clamp(3, 17), SIGNS)?;
-    let exact = if exact.chars().count() > room {
-        measured.exact_text(room.saturating_sub(6).max(3), SIGNS)?
+    let off = format!("  {} ulp", ulps_text(ulps, SIGNS));
+    let room = width.saturating_sub(SUBSTITUTED + "exactly ".len() + off.chars().count());
+    let exact = (4..=MOST_DIGITS)
+        .rev()
+        .filter_map(|digits| measured.exact_text(digits, SIGNS))
+        .find(|text| text.chars().count() <= room)
+        .or_else(|| measured.exact_text(3, SIGNS))?;
+    // A number that is merely rounded is no news; one that is further off is.
+    let (role, spare) = if ulps.abs() <= HALF_ULP {
+        (Role::Faint, 4)
+    } else if ulps.abs() < MANY_ULPS {
+        (Role::Faint, 1)
     } else {
-        exact
+        (Role::Warning, 0)
     };
-    let role = if ulps.is_finite() && ulps < MANY_ULPS {
-        Role::Faint
-    } else {
-        Role::Warning
-    };
-    let text = format!("{lead}{exact}{off}");
-    Some(Line::new(2).to(SUBSTITUTED).with(role, text))
+    let text = format!("exactly {exact}{off}");
+    Some(Line::new(spare).to(SUBSTITUTED).with(role, text))
 }
 
+/// As many digits of an exact value as tell any two neighbours of binary64 apart.
+const MOST_DIGITS: usize = 17;
+/// The error of a number that is the exact value rounded once.
+const HALF_ULP: f64 = 0.5;
 const SIGNS: Signs = Signs::Typographic;
 /// From this error on, a third of the bits of a binary32 are gone.
 const MANY_ULPS: f64 = 256.0;
