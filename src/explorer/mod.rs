@@ -12,6 +12,7 @@ mod draw;
 mod field;
 mod files;
 mod key;
+mod large;
 mod layout;
 mod mode;
 mod motion;

@@ -1,10 +1,10 @@
 //! Draws the panels beside the picture, and the board.
 
 use ratatui::layout::Rect;
-use ratatui::style::Style as CellStyle;
 
 use super::Explorer;
 use super::draw::Pen;
+use super::large;
 use super::layout;
 use super::panel::Panel;
 use super::stepping::Prediction;
@@ -111,7 +111,12 @@ impl Explorer {
             return;
         };
         let at = self.step_at.min(self.picture.steps.len() - 1);
-        let title = format!("step {} of {}", at + 1, self.picture.steps.len());
+        let title = format!(
+            "step {} of {}: {}",
+            at + 1,
+            self.picture.steps.len(),
+            step.name
+        );
         let foot = if self.is_hidden() {
             "enter: the answer"
         } else {
@@ -120,18 +125,21 @@ impl Explorer {
         pen.frame(area, &title, foot);
         let room = text_room(area);
         let result = if self.is_hidden() { "?" } else { &step.result };
-        let mut y = room.y + 1;
-        for text in [step.formula.as_str(), result] {
-            y = draw_large(pen, room, y, text) + 1;
-        }
-        for line in explain::wrap(&step.why, room.width.into()) {
-            if y < room.bottom() {
-                pen.text(room.x, y, room.width, &line, CellStyle::new());
-                y += 1;
+        // The result is what the back row must read: it has the larger part.
+        let y = large::draw(pen, room, room.y + 1, room.height / 4, &step.formula);
+        let y = large::draw(pen, room, y + 1, room.height / 2, &format!("= {result}"));
+        let small = [
+            (step.numbers.as_str(), Theme::faint()),
+            (step.why.as_str(), Theme::plain()),
+        ];
+        let mut y = y + 1;
+        for (text, style) in small {
+            for line in explain::wrap(text, room.width.into()) {
+                if y < room.bottom() {
+                    pen.text(room.x, y, room.width, &line, style);
+                    y += 1;
+                }
             }
-        }
-        if y < room.bottom() && !step.numbers.is_empty() {
-            pen.text(room.x, y + 1, room.width, &step.numbers, Theme::faint());
         }
     }
 }
@@ -144,18 +152,4 @@ fn text_room(area: Rect) -> Rect {
         width: room.width.saturating_sub(2),
         ..room
     }
-}
-
-/// Text in letters of several cells, as large as fits; returns the row below it.
-fn draw_large(pen: &mut Pen<'_>, room: Rect, y: u16, text: &str) -> u16 {
-    let lines = explain::wrap(text, room.width.into());
-    let mut y = y;
-    for line in lines {
-        if y >= room.bottom() {
-            break;
-        }
-        pen.text(room.x, y, room.width, &line, Theme::strong());
-        y += 1;
-    }
-    y
 }
