@@ -37,6 +37,10 @@ impl Theme {
             Role::Faint => Style::new().add_modifier(Modifier::DIM),
             Role::Verdict(class) => self.class(class).add_modifier(Modifier::BOLD),
             Role::Warning => self.warning(),
+            Role::Changed => self
+                .hue(Color::LightYellow)
+                .add_modifier(Modifier::UNDERLINED),
+            Role::Current => Self::chosen(),
         }
     }
 
