@@ -404,8 +404,11 @@ fn predicting_hides_the_answer_until_it_is_given() {
 fn the_board_shows_one_step_and_hides_its_answer() {
     let mut person = Person::opens("seed", 80, 24);
     person.commands("step C").presses("O");
-    assert!(!person.screen().contains("300"));
-    person.presses("enter").shows("300");
+    let hidden = person.screen();
+    let revealed = person.presses("enter").screen();
+    assert_ne!(hidden, revealed);
+    insta::assert_snapshot!("board_hidden_80x24", hidden);
+    insta::assert_snapshot!("board_revealed_80x24", revealed);
     person.presses("O").shows("view 40×40");
 }
 
