@@ -3,6 +3,7 @@
 //! The rest of the program asks a [`Method`] and gets a [`Solution`]; it never works the formula
 //! itself. Each method has a file of its own.
 
+pub mod batch;
 mod citardauq;
 mod double;
 mod dyadic;
@@ -12,6 +13,7 @@ mod haines;
 mod kahan;
 mod number;
 mod q_form;
+mod simd;
 mod surd;
 mod tape;
 mod textbook;

@@ -80,10 +80,17 @@ pub fn discriminant<T: Real>(input: &Input<T>) -> Discriminant<T> {
 }
 
 impl Discriminant<f64> {
-    /// The class, if D is farther from zero than four times its error.
+    /// Four times the error of D: farther from zero than that, D has the sign of the exact D, and
+    /// its square root is good enough for the bounds on the roots.
+    #[inline(always)]
+    pub fn threshold(&self) -> f64 {
+        4.0 * self.d_error
+    }
+
+    /// The class, if D is farther from zero than [`Discriminant::threshold`].
     #[inline(always)]
     pub fn class(&self) -> Option<Class> {
-        let threshold = 4.0 * self.d_error;
+        let threshold = self.threshold();
         if self.d > threshold {
             Some(Class::Secant)
         } else if self.d < -threshold {
@@ -198,17 +205,26 @@ pub struct Roots<T> {
 
 impl Roots<f64> {
     /// The smaller root.
+    #[inline(always)]
     pub fn near(&self) -> Bounded<f64> {
         if self.q < 0.0 { self.small } else { self.great }.negated()
     }
 
     /// The larger root.
+    #[inline(always)]
     pub fn far(&self) -> Bounded<f64> {
         if self.q < 0.0 { self.great } else { self.small }.negated()
     }
 }
 
 impl Bounded<f64> {
+    /// The least and the greatest number within the bound, each rounded.
+    #[inline(always)]
+    pub fn ends(self) -> [f64; 2] {
+        [self.value - self.error, self.value + self.error]
+    }
+
+    #[inline(always)]
     fn negated(self) -> Self {
         Self {
             value: -self.value,

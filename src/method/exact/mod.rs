@@ -13,6 +13,7 @@ mod binary64;
 mod double_double;
 mod error_free;
 mod integer;
+pub(super) mod lanes;
 mod real;
 mod rounding;
 mod whole;
@@ -24,7 +25,7 @@ pub use binary64::{Bounded, Direct, Discriminant, Estimate};
 
 use super::{Class, Coefficients, Precision, Solution};
 use crate::geometry::{Ray, Sphere};
-use binary64::Input;
+pub(super) use binary64::Input;
 use double_double::Doubled;
 use integer::Exact;
 use rounding::{Quadratic, Which};

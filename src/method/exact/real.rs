@@ -1,8 +1,11 @@
-//! What stage 1 asks of the numbers it runs on.
+//! The numbers that stage 1 runs on: one binary64, or several side by side.
+//!
+//! Stage 1 is written once over [`Real`]. Each operation here is rounded once per lane, so that a
+//! batch has the bits of the single call.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A binary64: each operation is rounded once.
+/// A binary64, or several in lanes.
 pub trait Real:
     Copy
     + Add<Output = Self>

@@ -39,24 +39,15 @@ pub fn round(t: f64) -> f32 {
     t as f32 + 0.0
 }
 
-/// What the least and the greatest number within the bound round to.
-#[inline(always)]
-fn bracket(root: Bounded<f64>) -> (f32, f32) {
-    (
-        round(root.value - root.error),
-        round(root.value + root.error),
-    )
-}
-
 /// The answer, if the bound alone leaves one.
 pub fn by_bound(root: Bounded<f64>) -> Option<f32> {
-    let (low, high) = bracket(root);
+    let [low, high] = root.ends().map(round);
     (low == high).then_some(low)
 }
 
 /// The answer, if the bound leaves one, or two neighbours and the signs tell which.
 pub fn by_signs(which: Which, root: Bounded<f64>, signs: &impl Signs) -> Option<f32> {
-    let (low, high) = bracket(root);
+    let [low, high] = root.ends().map(round);
     if low == high {
         return Some(low);
     }

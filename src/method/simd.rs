@@ -1,0 +1,33 @@
+//! Runs a loop over arrays with the widest vectors that this processor has.
+//!
+//! The same code is compiled twice, so that both give the same bits: Rust never fuses a product
+//! and a sum unasked, and `kahan`, which asks, gets the same fused operation either way. This is the one place of the crate that needs `unsafe`.
+
+/// A loop over arrays that is worth compiling for wider vectors.
+pub(super) trait Kernel {
+    /// Runs it; `#[inline(always)]`, and so must be all that it calls.
+    fn run(self);
+}
+
+/// Runs the kernel, with AVX2 and FMA where the processor has it.
+pub(super) fn dispatch(kernel: impl Kernel) {
+    #[cfg(target_arch = "x86_64")]
+    if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
+        #[expect(
+            unsafe_code,
+            reason = "calls code compiled for features that were just found"
+        )]
+        // SAFETY: the processor has AVX2 and FMA, which is all that `with_avx2` asks.
+        unsafe {
+            with_avx2(kernel);
+        }
+        return;
+    }
+    kernel.run();
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn with_avx2(kernel: impl Kernel) {
+    kernel.run();
+}
