@@ -106,8 +106,8 @@ pub struct Doubled {
 }
 
 impl Doubled {
-    /// The quadratic in double-double.
-    pub fn new(input: &Input<f64>) -> Self {
+    /// The quadratic in double-double, if that is enough for the sign of D.
+    pub fn new(input: &Input<f64>) -> Option<Self> {
         let Input { p0, d, center, r } = *input;
         let o = [0, 1, 2].map(|i| DoubleDouble::difference(p0[i], center[i]));
         let a = sum(d.map(|x| DoubleDouble::exact(x * x)));
@@ -117,27 +117,30 @@ impl Doubled {
             o[2] * d[0] - o[0] * d[2],
             o[0] * d[1] - o[1] * d[0],
         ];
-        let terms = [o[0] * d[0], o[1] * d[1], o[2] * d[2]];
-        let o2 = sum(o.map(DoubleDouble::square));
-
+        let quarter_discriminant = a * r2 - sum(k.map(DoubleDouble::square));
         let length: f64 = o.iter().map(|x| x.high.abs()).sum();
         let spread = r * (13.0 * r + 6.0 * length) + 64.0 * EPSILON * (length * length);
-        Self {
+        let d_error = a.high * (EPSILON * spread);
+        certain_sign(quarter_discriminant.high, 4.0 * d_error)?;
+
+        let terms = [o[0] * d[0], o[1] * d[1], o[2] * d[2]];
+        let o2 = sum(o.map(DoubleDouble::square));
+        Some(Self {
             a,
             half_b: sum(terms),
             c: o2 - r2,
-            d: a * r2 - sum(k.map(DoubleDouble::square)),
-            d_error: a.high * (EPSILON * spread),
+            d: quarter_discriminant,
+            d_error,
             half_b_magnitude: terms.iter().map(|x| x.high.abs()).sum(),
             c_magnitude: o2.high + r2.high,
-        }
+        })
     }
 }
 
 impl Quadratic for Doubled {
-    /// None if D is within four times its error of zero; never found to be zero.
+    /// Never zero: then there would be no quadratic.
     fn discriminant(&self) -> Option<Ordering> {
-        certain_sign(self.d.high, 4.0 * self.d_error)
+        certain_sign(self.d.high, self.d_error)
     }
 
     /// Each rounded to binary64, with what that adds to its error.

@@ -81,6 +81,9 @@ impl Integer<SINGLE> {
     fn times(&self, other: &Self) -> Integer<DOUBLE> {
         let mut words = [0; DOUBLE];
         for (i, &x) in self.words.iter().enumerate() {
+            if x == 0 {
+                continue;
+            }
             let mut carry = 0;
             for (j, &y) in other.words.iter().enumerate() {
                 let sum = u128::from(x) * u128::from(y) + u128::from(words[i + j]) + carry;
@@ -172,17 +175,15 @@ struct Single {
 
 impl Single {
     fn new(x: f64) -> Self {
-        let bits = (x as f32).to_bits();
-        let exponent = bits >> 23 & 0xff;
-        let fraction = u64::from(bits & 0x7f_ffff);
+        let bits = x.to_bits();
+        let exponent = (bits >> 52 & 0x7ff) as i32 - 1023;
+        // The 24 bits that a binary32 has; a subnormal one has fewer.
+        let mantissa = (bits >> 29 & 0x7f_ffff) | 1 << 23;
+        let shift = exponent + 126;
         Self {
-            negative: bits >> 31 == 1,
-            mantissa: if exponent == 0 {
-                fraction
-            } else {
-                fraction | 1 << 23
-            },
-            shift: exponent.saturating_sub(1),
+            negative: x < 0.0,
+            mantissa: mantissa >> (-shift).clamp(0, 63),
+            shift: shift.max(0) as u32,
         }
     }
 

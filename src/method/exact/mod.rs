@@ -122,7 +122,8 @@ pub struct Findings {
     pub stage: Stage,
     /// The class, if the stage is sure of the sign of D.
     pub class: Option<Class>,
-    /// A, b, C and D with bounds on their errors; none in stage 1, which needs no C.
+    /// A, b, C and D with bounds on their errors; none in stage 1, which needs no C, and where a
+    /// stage cannot even tell the class.
     pub estimate: Option<Estimate<f64>>,
     /// The smaller and the larger root, if there are any.
     pub roots: Option<[Root; 2]>,
@@ -358,7 +359,15 @@ fn whole(input: &Input<f64>, open: &Answer) -> Option<Findings> {
 
 #[inline(never)]
 fn double_double(input: &Input<f64>, open: &Answer) -> Findings {
-    ask_for_signs(Stage::DoubleDouble, &Doubled::new(input), open)
+    match Doubled::new(input) {
+        Some(doubled) => ask_for_signs(Stage::DoubleDouble, &doubled, open),
+        None => Findings {
+            stage: Stage::DoubleDouble,
+            class: None,
+            estimate: None,
+            roots: None,
+        },
+    }
 }
 
 #[inline(never)]
