@@ -100,7 +100,7 @@ fn sign_step(discriminant: &Discriminant<f64>) -> Step {
             format!("|D| = {} {than} 4·{}: {verdict}", text(d), text(bound)),
         ),
         measured(bound, Surd::from_f64(bound)),
-        "let threshold = 4.0 * self.d_error;",
+        "let threshold = self.threshold();",
         "A bound on the rounding errors of D: farther from 0 than that, its sign is right.",
     )
 }
