@@ -1,9 +1,22 @@
-//! The laboratory: rays to hold the methods against.
+//! The laboratory: rays to hold the methods against, what that shows, and what it costs.
 //!
-//! What is measured with them, error and time, joins here later; nothing here draws.
+//! Nothing here knows a terminal; the command line and the explorer print what is found.
 
+mod errors;
 pub mod families;
+mod hexadecimal;
 mod random;
+mod reference;
 
+pub use errors::{
+    Census, Checksum, Errors, Fault, Judgement, Percentiles, RootError, Worst, Wrong, judge,
+};
 pub use families::Family;
+pub use hexadecimal::{hexadecimal, numbers};
 pub use random::Random;
+pub use reference::{Reference, Root};
+
+use crate::geometry::{Ray, Sphere};
+
+/// What a method is asked: where the line of this ray meets this sphere.
+pub type Problem = (Ray, Sphere);
