@@ -1,5 +1,6 @@
 //! The command line: parses the arguments and calls the part that does the work.
 
+mod bench;
 mod explore;
 mod print;
 mod scenes;
@@ -24,6 +25,7 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Bench(bench::Bench),
     Print(print::Print),
     Scenes(scenes::Scenes),
 }
@@ -33,6 +35,7 @@ pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
     match arguments.command {
         None => explore::run(&arguments.explore),
+        Some(Command::Bench(arguments)) => bench::run(&arguments),
         Some(Command::Print(arguments)) => print::run(&arguments),
         Some(Command::Scenes(arguments)) => scenes::run(&arguments),
     }

@@ -2,17 +2,21 @@
 //!
 //! Nothing here knows a terminal; the command line and the explorer print what is found.
 
+pub mod bench;
 mod errors;
 pub mod families;
 mod hexadecimal;
+mod machine;
 mod random;
 mod reference;
+pub mod timing;
 
 pub use errors::{
     Census, Checksum, Errors, Fault, Judgement, Percentiles, RootError, Worst, Wrong, judge,
 };
 pub use families::Family;
 pub use hexadecimal::{hexadecimal, numbers};
+pub use machine::Machine;
 pub use random::Random;
 pub use reference::{Reference, Root};
 
