@@ -3,6 +3,7 @@
 //! Nothing here knows a terminal; the command line and the explorer print what is found.
 
 pub mod bench;
+pub mod dials;
 mod errors;
 pub mod families;
 mod hexadecimal;
@@ -11,6 +12,7 @@ mod random;
 mod reference;
 pub mod timing;
 
+pub use dials::Dial;
 pub use errors::{
     Census, Checksum, Errors, Fault, Judgement, Percentiles, RootError, Worst, Wrong, judge,
 };

@@ -9,6 +9,8 @@ use crate::method::{Class, Precision, Solution, Surd, Truth};
 pub struct Reference {
     /// Miss, tangent or secant.
     pub class: Class,
+    /// D = Δ/4, rounded once to binary64.
+    pub quarter_discriminant: f64,
     /// The near and the far root.
     pub roots: Option<[Root; 2]>,
 }
@@ -35,6 +37,7 @@ impl Reference {
         let root = |root: Option<Surd>| root.map(|root| Root::new(&truth, &root));
         Self {
             class: truth.class(),
+            quarter_discriminant: Surd::from(truth.quarter_discriminant.clone()).to_f64(),
             roots: root(truth.near())
                 .zip(root(truth.far()))
                 .map(<[_; 2]>::from),
@@ -60,6 +63,7 @@ impl Reference {
 
     const MISS: Self = Self {
         class: Class::Miss,
+        quarter_discriminant: f64::NEG_INFINITY,
         roots: None,
     };
 
