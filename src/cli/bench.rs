@@ -1,12 +1,10 @@
 //! `rayscope bench`: error against run time.
 
-use std::io::{IsTerminal as _, Write as _};
 use std::process::ExitCode;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Args, ValueEnum};
 
+use super::progress::{INTERRUPTED, Progress};
 use super::{INVALID, choice, complain, write_out};
 use crate::lab::bench::{self, MOST_TIMED, Plan, Report, Sample};
 use crate::lab::timing::{Schedule, SystemClock};
@@ -109,9 +107,6 @@ pub(super) fn run(arguments: &Bench) -> ExitCode {
     }
 }
 
-/// 128 + SIGINT.
-pub(super) const INTERRUPTED: u8 = 130;
-
 fn plan(arguments: &Bench) -> Plan<'_> {
     Plan {
         methods: if arguments.method.is_empty() {
@@ -152,60 +147,5 @@ fn in_format(report: &Report, arguments: &Bench) -> Result<String, String> {
         Format::Markdown => Ok(bench::markdown(report, &machine)),
         Format::Csv => bench::csv(report).map_err(|e| format!("CSV: {e}")),
         Format::Json => bench::json(report, &machine).map_err(|e| format!("JSON: {e}")),
-    }
-}
-
-/// Tells on standard error how far a long run is, if that is a terminal, and whether Ctrl-C was
-/// pressed.
-pub(super) struct Progress {
-    what: &'static str,
-    all: usize,
-    shown: Option<usize>,
-    interrupt: Arc<AtomicBool>,
-}
-
-impl Progress {
-    pub fn new(what: &'static str, all: usize) -> std::io::Result<Self> {
-        let interrupt = Arc::new(AtomicBool::new(false));
-        // Pressed twice, Ctrl-C ends the program at once.
-        let signal = signal_hook::consts::SIGINT;
-        let pressed = Arc::clone(&interrupt);
-        signal_hook::flag::register_conditional_shutdown(signal, INTERRUPTED.into(), pressed)?;
-        signal_hook::flag::register(signal, Arc::clone(&interrupt))?;
-        Ok(Self {
-            what,
-            all,
-            shown: None,
-            interrupt,
-        })
-    }
-
-    /// Notes that the part `number`, from 0, is being worked on; whether to go on with it.
-    pub fn go_on(&mut self, number: usize, name: &str) -> bool {
-        if self.shown != Some(number) {
-            self.shown = Some(number);
-            let Self { what, all, .. } = self;
-            say(&format!("\r\x1b[K{what}: {name}, {} of {all}", number + 1));
-        }
-        !self.interrupted()
-    }
-
-    pub fn interrupted(&self) -> bool {
-        self.interrupt.load(Ordering::Relaxed)
-    }
-
-    /// Takes the line of progress away.
-    pub fn clear(&self) {
-        if self.shown.is_some() {
-            say("\r\x1b[K");
-        }
-    }
-}
-
-/// Writes on standard error if somebody watches it.
-fn say(text: &str) {
-    let mut err = std::io::stderr();
-    if err.is_terminal() {
-        let _ = err.write_all(text.as_bytes());
     }
 }

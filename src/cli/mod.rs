@@ -3,7 +3,9 @@
 mod bench;
 mod explore;
 mod print;
+mod progress;
 mod scenes;
+mod stress;
 
 use std::fmt;
 use std::io::{ErrorKind, Write};
@@ -28,6 +30,7 @@ enum Command {
     Bench(bench::Bench),
     Print(print::Print),
     Scenes(scenes::Scenes),
+    Stress(stress::Stress),
 }
 
 /// Runs the program with the arguments of this process.
@@ -38,6 +41,7 @@ pub fn main() -> ExitCode {
         Some(Command::Bench(arguments)) => bench::run(&arguments),
         Some(Command::Print(arguments)) => print::run(&arguments),
         Some(Command::Scenes(arguments)) => scenes::run(&arguments),
+        Some(Command::Stress(arguments)) => stress::run(&arguments),
     }
 }
 

@@ -7,6 +7,9 @@ use super::Problem;
 use super::families::{Case, aimed, typical, whole_frame};
 use super::random::{Random, power_of_two};
 
+/// The roots of a ray that was not yet rounded, near and far; none for a miss.
+pub type Intent = Option<[f64; 2]>;
+
 /// A family of rays with one quantity to turn.
 #[derive(Debug, Clone, Copy)]
 pub struct Dial {
@@ -24,7 +27,7 @@ pub struct Dial {
 
 impl Dial {
     /// All dials, in the order of reports.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: &'static [Self] = &[
         Self {
             name: "distance",
             quantity: "|o|/r",
@@ -93,14 +96,19 @@ impl Dial {
 
     /// The dial of that name.
     pub fn by_name(name: &str) -> Option<&'static Self> {
-        const ALL: &[Dial] = &Dial::ALL;
-        ALL.iter().find(|dial| dial.name == name)
+        Self::ALL.iter().find(|dial| dial.name == name)
     }
 
     /// The exponents k of the values 2^k, from tame to broken.
     pub fn settings(&self) -> impl Iterator<Item = i32> + use<> {
         let [first, last, step] = self.settings;
         (0..=(last - first) / step).map(move |i| first + i * step)
+    }
+
+    /// Whether the value 2^k lies within the settings.
+    pub fn reaches(&self, k: f64) -> bool {
+        let [first, last, _] = self.settings.map(f64::from);
+        (first.min(last)..=first.max(last)).contains(&k)
     }
 
     /// The step between two settings, as |k' − k|.
@@ -110,12 +118,31 @@ impl Dial {
 
     /// The first `n` of its rays at the setting 2^k.
     pub fn sample(&self, seed: u64, k: i32, n: usize) -> Vec<Problem> {
+        self.drawn(seed, k)
+            .take(n)
+            .map(|(_, problem)| problem)
+            .collect()
+    }
+
+    /// The same rays, each with the roots that it had before it was rounded to binary32; none for
+    /// a miss.
+    pub fn sample_with_intent(&self, seed: u64, k: i32, n: usize) -> Vec<(Problem, Intent)> {
+        let drawn = self.drawn(seed, k).take(n);
+        drawn
+            .map(|(case, problem)| (problem, case.roots()))
+            .collect()
+    }
+
+    fn drawn(&self, seed: u64, k: i32) -> impl Iterator<Item = (Case, Problem)> + use<> {
         let mut random = Random::new(seed ^ (k as u64) << 32);
         let draw = self.draw;
         std::iter::repeat_with(move || draw(&mut random, k))
-            .filter_map(|case| case.rounded())
-            .take(n)
-            .collect()
+            .filter_map(|case| case.rounded().map(|problem| (case, problem)))
+    }
+
+    /// Whether the inputs lose bits when they are rounded to binary32, before any method is asked.
+    pub fn rounds_inputs(&self) -> bool {
+        self.name == "offset"
     }
 
     /// The width of a pixel at the hit, in radii: a tenth of what there is to see, the radius or,
@@ -223,10 +250,8 @@ fn offset(random: &mut Random, k: i32) -> Case {
     let mut case = aimed(random, [0.0; 3], radius, distance, miss);
     let away = random.unit_vector();
     let far = power_of_two(k) * distance;
-    for i in 0..3 {
-        case.origin[i] += far * away[i];
-        case.center[i] += far * away[i];
-    }
+    let moved = |p: [f64; 3]| [0, 1, 2].map(|i| p[i] + far * away[i]);
+    (case.origin, case.center) = (moved(case.origin), moved(case.center));
     case
 }
 
@@ -259,6 +284,8 @@ fn length(random: &mut Random, k: i32) -> Case {
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
+
     use super::*;
     use crate::lab::Reference;
     use crate::method::{Class, Truth};
@@ -266,7 +293,7 @@ mod tests {
     /// The quantity of a dial for one of its rays, from the ray itself.
     fn measured(dial: &Dial, (ray, sphere): &Problem) -> f64 {
         let [o, d, p0] =
-            [ray.origin - sphere.center, ray.direction, ray.origin].map(|v| v.as_dvec3());
+            [ray.origin - sphere.center, ray.direction, ray.origin].map(Vec3::as_dvec3);
         let r = f64::from(sphere.radius);
         let exact_o = ray.origin.as_dvec3() - sphere.center.as_dvec3();
         match dial.name {
@@ -288,7 +315,7 @@ mod tests {
 
     #[test]
     fn each_dial_shows_the_value_it_is_set_to() {
-        for dial in &Dial::ALL {
+        for dial in Dial::ALL {
             for k in dial.settings().step_by(3) {
                 let slack = match dial.name {
                     "large" | "small" => 2.01,

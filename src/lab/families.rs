@@ -34,6 +34,19 @@ impl Case {
         let sphere = Sphere::new(vector(self.center), self.radius as f32).ok()?;
         Some((ray, sphere))
     }
+
+    /// The roots before any rounding to binary32, by Lagrange's identity in binary64.
+    pub fn roots(&self) -> Option<[f64; 2]> {
+        let (d, r) = (self.direction, self.radius);
+        let o = [0, 1, 2].map(|i| self.origin[i] - self.center[i]);
+        let k = [0, 1, 2].map(|i| {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            o[j] * d[k] - o[k] * d[j]
+        });
+        let (a, b) = (dot(d, d), dot(o, d));
+        let root = (a * r * r - dot(k, k)).sqrt();
+        (!root.is_nan()).then(|| [(-b - root) / a, (-b + root) / a])
+    }
 }
 
 macro_rules! families {

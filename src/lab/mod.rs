@@ -8,8 +8,10 @@ mod errors;
 pub mod families;
 mod hexadecimal;
 mod machine;
+pub mod promise;
 mod random;
 mod reference;
+pub mod stress;
 pub mod timing;
 
 pub use dials::Dial;

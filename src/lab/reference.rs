@@ -100,14 +100,14 @@ impl Root {
         self.high
     }
 
-    /// |answer − root|, correct to a few units in the last place of binary64.
-    pub fn distance(&self, answer: f32) -> f64 {
-        ((f64::from(answer) - self.high) - self.low).abs()
+    /// |value − root|, correct to a few units in the last place of binary64.
+    pub fn distance(&self, value: impl Into<f64>) -> f64 {
+        ((value.into() - self.high) - self.low).abs()
     }
 
     /// The error of an answer in units of the spacing of binary32 at the exact root.
-    pub fn ulps(&self, answer: f32) -> f64 {
-        self.distance(answer) / self.ulp
+    pub fn ulps(&self, value: impl Into<f64>) -> f64 {
+        self.distance(value) / self.ulp
     }
 
     /// The blame of an answer: relative error over κu; 0 where the answer is correctly rounded,

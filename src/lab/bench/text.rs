@@ -189,7 +189,7 @@ fn footer(report: &Report) -> String {
 }
 
 /// The text on lines of at most 80 columns, the later ones indented.
-fn wrapped(text: &str) -> String {
+pub(crate) fn wrapped(text: &str) -> String {
     let indent = text.len() - text.trim_start().len();
     let mut out = " ".repeat(indent);
     let mut column = indent;
