@@ -4,6 +4,7 @@
 //! out as lines of text with roles; the explorer colours them, `print --pixel` writes them as
 //! they are.
 
+mod figure;
 mod number;
 mod panel;
 
@@ -13,6 +14,7 @@ use crate::geometry::{Ray, Sphere};
 use crate::method::{Coefficients, Method, Place, Solution};
 use crate::scene::{Body, Scene};
 
+pub use figure::{Float, Ink, bits, curve, slice};
 pub use number::{Digits, Glyphs, number, vector};
 pub use panel::{Line, Role, Span, fit, lines, plain_text};
 
