@@ -1,22 +1,85 @@
 //! The command line: parses the arguments and calls the part that does the work.
 
+mod explore;
+mod print;
+mod scenes;
+mod solve;
+
+use std::fmt;
+use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand};
 
 /// A terminal explorer for ray–sphere intersection.
 #[derive(Debug, Parser)]
-#[command(version, about)]
+#[command(version, about, args_conflicts_with_subcommands = true)]
 struct Arguments {
     #[command(subcommand)]
     command: Option<Command>,
+
+    #[command(flatten)]
+    explore: explore::Explore,
 }
 
 #[derive(Debug, Subcommand)]
-enum Command {}
+enum Command {
+    Print(print::Print),
+    Scenes(scenes::Scenes),
+    Solve(solve::Solve),
+}
 
 /// Runs the program with the arguments of this process.
 pub fn main() -> ExitCode {
-    let Arguments { command: None } = Arguments::parse();
-    ExitCode::SUCCESS
+    let arguments = Arguments::parse();
+    match arguments.command {
+        None => explore::run(&arguments.explore),
+        Some(Command::Print(arguments)) => print::run(&arguments),
+        Some(Command::Scenes(arguments)) => scenes::run(&arguments),
+        Some(Command::Solve(arguments)) => solve::run(&arguments),
+    }
+}
+
+/// The exit status where some input was invalid.
+const INVALID: u8 = 1;
+
+/// The exit status where the program was called wrongly.
+const MISUSED: u8 = 2;
+
+/// Reads one of several values by its name.
+fn choice<T: Copy + Send + Sync + 'static>(
+    all: &'static [T],
+    name: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    PossibleValuesParser::new(all.iter().map(|&v| name(v))).try_map(move |given| {
+        let found = all.iter().copied().find(|&v| name(v) == given);
+        found.ok_or("no such name")
+    })
+}
+
+/// Reads how many times as high as wide a cell is.
+fn aspect(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(aspect) if (0.5..=4.0).contains(&aspect) => Ok(aspect),
+        _ => Err("expected a number from 0.5 to 4".into()),
+    }
+}
+
+/// Writes to standard output. Whoever closes it early has seen enough.
+fn write_out(text: &str) -> ExitCode {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+        Err(error) => {
+            complain(format_args!("standard output: {error}"));
+            ExitCode::from(INVALID)
+        }
+    }
+}
+
+/// Says a sentence on standard error. If nobody can read it, nobody is missing it.
+fn complain(sentence: impl fmt::Display) {
+    let _ = writeln!(std::io::stderr(), "rayscope: {sentence}");
 }

@@ -3,9 +3,17 @@
 //! A [`Scene`] is plain data that has been checked. Its camera makes rays; nothing here asks what
 //! they hit.
 
+mod builtin;
 mod camera;
+mod file;
+mod open;
+pub mod value;
+mod write;
 
+pub use builtin::Builtin;
 pub use camera::{Camera, PixelShape, Projection, Rays, Size};
+pub use file::{FileError, LARGEST_FILE, Position};
+pub use open::Source;
 
 use glam::Vec3;
 

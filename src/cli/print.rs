@@ -1,0 +1,286 @@
+//! `rayscope print`: draws a scene once to standard output. No state of a terminal is touched.
+
+use std::fmt::Write as _;
+use std::io::{self, IsTerminal as _};
+use std::process::ExitCode;
+
+use clap::{Args, ValueEnum};
+use crossterm::terminal::window_size;
+
+use super::{INVALID, MISUSED, aspect, choice, complain, write_out};
+use crate::explain::{self, Digits, Glyphs, Reading};
+use crate::method::Method;
+use crate::render::{
+    AnsiColor, CELL_ASPECT, Cell, ColorDepth, Frame, Image, Look, Style, View, fit,
+};
+use crate::scene::{PixelShape, Rays, Scene, Size};
+use crate::terminal::Capability;
+
+/// Draw a scene once, as text
+#[derive(Debug, Args)]
+pub(super) struct Print {
+    /// A scene file, or the name of a built-in scene
+    scene: String,
+
+    /// How samples become characters [default: half where there are colours, else ascii]
+    #[arg(long, value_parser = choice(&Style::ALL, Style::name))]
+    style: Option<Style>,
+
+    /// What the picture shows
+    #[arg(long, value_parser = choice(&View::ALL, View::name), default_value = View::default().name())]
+    view: View,
+
+    /// Width and height in pixels [default: the scene's own, else what fills the terminal]
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    size: Option<Size>,
+
+    /// How the quadratic is evaluated
+    #[arg(long, value_parser = choice(&Method::ALL, Method::name), default_value_t = Method::default())]
+    method: Method,
+
+    /// How many colours; auto: as many as the terminal has, in a pipe or file none
+    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    color: ColorChoice,
+
+    /// Height of a character cell over its width
+    #[arg(long, default_value_t = CELL_ASPECT, value_parser = aspect)]
+    aspect: f64,
+
+    /// Instead of the picture, what the ray of one of its pixels finds
+    #[arg(long, value_name = "X,Y", value_parser = pixel)]
+    pixel: Option<(u32, u32)>,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum ColorChoice {
+    Auto,
+    Never,
+    #[value(name = "16")]
+    Ansi16,
+    #[value(name = "256")]
+    Ansi256,
+    True,
+}
+
+/// Draws the scene, or reads one pixel of it, and ends with the exit status.
+pub(super) fn run(arguments: &Print) -> ExitCode {
+    match text(arguments) {
+        Ok(text) => write_out(&text),
+        Err((status, sentence)) => {
+            complain(sentence);
+            ExitCode::from(status)
+        }
+    }
+}
+
+/// What is asked for, or an exit status and the reason.
+fn text(arguments: &Print) -> Result<String, (u8, String)> {
+    let (scene, _) = Scene::open(&arguments.scene).map_err(|e| (INVALID, e.to_string()))?;
+    let capability = capability(arguments.color);
+    let style = arguments.style.unwrap_or_else(|| default_style(capability));
+    let (size, shape) = fit_as_asked(&scene, style, arguments);
+    let rays = Rays::new(&scene.camera, size, shape);
+    match arguments.pixel {
+        None => Ok(picture(&scene, &rays, arguments, style, capability.depth)),
+        Some((x, y)) if x < size.width && y < size.height => {
+            let ray = rays.ray(x, y);
+            let reading = Reading::take(&scene, (x, y), ray, arguments.method, None, None);
+            Ok(panel(&reading, size, capability.glyphs))
+        }
+        Some((x, y)) => {
+            let [right, bottom] = [size.width, size.height].map(|n| n.saturating_sub(1));
+            let expected = format!("a pixel of the picture, from 0,0 to {right},{bottom}");
+            Err((MISUSED, format!("--pixel {x},{y}: expected {expected}")))
+        }
+    }
+}
+
+fn capability(choice: ColorChoice) -> Capability {
+    let capability = Capability::of_output();
+    let depth = match choice {
+        ColorChoice::Auto => capability.depth,
+        ColorChoice::Never => ColorDepth::None,
+        ColorChoice::Ansi16 => ColorDepth::Ansi16,
+        ColorChoice::Ansi256 => ColorDepth::Ansi256,
+        ColorChoice::True => ColorDepth::True,
+    };
+    Capability {
+        depth,
+        ..capability
+    }
+}
+
+fn default_style(capability: Capability) -> Style {
+    if capability.depth == ColorDepth::None || capability.glyphs == Glyphs::Ascii {
+        Style::Ascii
+    } else {
+        Style::Half
+    }
+}
+
+/// What the side panel of the explorer shows for a pixel, under a line that says for which.
+fn panel(reading: &Reading, size: Size, glyphs: Glyphs) -> String {
+    let Size { width, height } = size;
+    let ((x, y), method) = (reading.pixel, reading.method);
+    let title = format!("ray at ({x}, {y}) of {width} by {height} pixels, method {method}");
+    let lines = explain::lines(reading, DEFAULT_ROOM.0 as usize, Digits::Full);
+    glyphs.spell(&format!("{title}\n{}", explain::plain_text(&lines)))
+}
+
+/// The picture as text, with escape sequences for its colours if there are any.
+fn picture(
+    scene: &Scene,
+    rays: &Rays,
+    arguments: &Print,
+    style: Style,
+    depth: ColorDepth,
+) -> String {
+    let mut frame = Frame::new();
+    let view = arguments.view.shown_in(style);
+    frame.render(scene, rays, arguments.method, view);
+    let mut image = Image::new();
+    let look = Look {
+        style,
+        depth,
+        ascii_only: false,
+    };
+    image.draw(&frame, scene, look);
+    encode(image.lines(), depth)
+}
+
+/// Columns and rows where there is no terminal to ask.
+const DEFAULT_ROOM: (u32, u32) = (80, 24);
+
+/// Columns and rows that the output has room for.
+fn room() -> (u32, u32) {
+    match window_size() {
+        // The last row is left to the prompt that follows.
+        Ok(size) if io::stdout().is_terminal() && size.columns > 0 && size.rows > 1 => {
+            (size.columns.into(), u32::from(size.rows) - 1)
+        }
+        _ => DEFAULT_ROOM,
+    }
+}
+
+/// The size of the picture: as asked, else the scene's own, else what fills the room.
+fn fit_as_asked(scene: &Scene, style: Style, arguments: &Print) -> (Size, PixelShape) {
+    let (cols, rows) = room();
+    let (own, shape) = fit(scene, style, cols, rows, arguments.aspect);
+    match arguments.size {
+        Some(asked) if asked != own => {
+            let aspect = style.pixel_aspect(arguments.aspect);
+            (asked, PixelShape::Aspect(aspect))
+        }
+        _ => (own, shape),
+    }
+}
+
+/// The rows of the image, each ended by a newline in the terminal's own colours.
+fn encode<'a>(lines: impl Iterator<Item = &'a [Cell]>, depth: ColorDepth) -> String {
+    let mut text = String::new();
+    for line in lines {
+        let mut colors = [None, None];
+        for cell in line {
+            change_colors(&mut text, &mut colors, cell, depth);
+            text.push(cell.glyph);
+        }
+        if colors != [None, None] {
+            text += "\x1b[0m";
+        }
+        text.push('\n');
+    }
+    text
+}
+
+/// Switches to the colours of `cell`; a blank has no foreground to switch to.
+fn change_colors(
+    text: &mut String,
+    colors: &mut [Option<AnsiColor>; 2],
+    cell: &Cell,
+    depth: ColorDepth,
+) {
+    let [fg, bg] = [cell.fg, cell.bg].map(|c| c.and_then(|c| depth.nearest(c)));
+    let fg = if cell.glyph == ' ' { colors[0] } else { fg };
+    let changed = [(fg, 30), (bg, 40)];
+    for (current, (wanted, ground)) in colors.iter_mut().zip(changed) {
+        if *current != wanted {
+            *current = wanted;
+            // Writing to a string does not fail.
+            let _ = match wanted {
+                None => write!(text, "\x1b[{}m", ground + 9),
+                Some(AnsiColor::Basic(i @ 0..=7)) => write!(text, "\x1b[{}m", ground + i),
+                Some(AnsiColor::Basic(i)) => write!(text, "\x1b[{}m", ground + 60 + i - 8),
+                Some(AnsiColor::Indexed(i)) => write!(text, "\x1b[{};5;{i}m", ground + 8),
+                Some(AnsiColor::Rgb(c)) => {
+                    write!(text, "\x1b[{};2;{};{};{}m", ground + 8, c.0, c.1, c.2)
+                }
+            };
+        }
+    }
+}
+
+fn size(text: &str) -> Result<Size, String> {
+    let side = |digits: &str| {
+        let number = digits.parse().ok()?;
+        (1..=Size::LARGEST).contains(&number).then_some(number)
+    };
+    text.split_once(['x', 'X', '×'])
+        .and_then(|(width, height)| Some(Size::new(side(width)?, side(height)?)))
+        .ok_or_else(|| {
+            let most = Size::LARGEST;
+            format!("expected a width and a height, each from 1 to {most}, such as 80x48")
+        })
+}
+
+fn pixel(text: &str) -> Result<(u32, u32), String> {
+    text.split_once(',')
+        .and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)))
+        .ok_or_else(|| "expected a column and a row, counted from 0, such as 20,20".into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Rgb;
+
+    #[test]
+    fn sizes_are_two_numbers_in_range() {
+        assert_eq!(size("80x48"), Ok(Size::new(80, 48)));
+        assert_eq!(size("1X4096"), Ok(Size::new(1, 4096)));
+        for bad in [
+            "", "80", "80x", "x48", "0x1", "80x-1", "80x48x2", "4097x1", "8e1x1",
+        ] {
+            assert!(size(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn a_colour_is_written_where_it_changes_and_ends_with_its_line() {
+        let [red, blue] = [Rgb(255, 0, 0), Rgb(0, 0, 255)].map(Some);
+        let cell = |glyph, fg, bg| Cell { glyph, fg, bg };
+        let cells = [
+            cell('▀', red, None),
+            cell(' ', None, None),
+            cell('▀', red, None),
+            cell('▀', red, blue),
+            cell('a', None, None),
+            cell('b', None, None),
+            cell('▀', blue, None),
+            cell('c', None, None),
+        ];
+        let encode = |depth| encode(cells.chunks(4), depth);
+        assert_eq!(
+            encode(ColorDepth::True),
+            "\x1b[38;2;255;0;0m▀ ▀\x1b[48;2;0;0;255m▀\x1b[0m\nab\x1b[38;2;0;0;255m▀\x1b[39mc\n"
+        );
+        assert_eq!(
+            encode(ColorDepth::Ansi256).lines().next(),
+            Some("\x1b[38;5;196m▀ ▀\x1b[48;5;21m▀\x1b[0m")
+        );
+        assert_eq!(
+            encode(ColorDepth::Ansi16).lines().next(),
+            Some("\x1b[91m▀ ▀\x1b[44m▀\x1b[0m")
+        );
+        assert_eq!(encode(ColorDepth::None), "▀ ▀▀\nab▀c\n");
+    }
+}

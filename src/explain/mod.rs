@@ -1,0 +1,225 @@
+//! What one pixel found, in numbers and words: the side panel without a terminal.
+//!
+//! A [`Reading`] is everything that the panel shows for the ray of one pixel. [`panel`] lays it
+//! out as lines of text with roles; the explorer colours them, `print --pixel` writes them as
+//! they are.
+
+mod compare;
+mod derivation;
+mod number;
+mod panel;
+mod steps;
+
+use glam::{DVec3, Vec3};
+
+use crate::geometry::{Ray, Sphere};
+use crate::method::{Coefficients, Method, Place, Solution, Trace};
+use crate::scene::{Body, Scene};
+
+pub use compare::comparison;
+pub use derivation::{Drawn, Question, Step, derivation};
+pub use number::{Digits, Glyphs, number, vector};
+pub use panel::{Line, Role, Span, fit, lines, plain_text};
+pub use steps::{StepLook, question_lines, step_lines, step_list, steps_text, wrap};
+
+/// What the ray of one pixel finds in a scene.
+#[derive(Debug, Clone)]
+pub struct Reading {
+    /// The pixel, from 0 at the top left.
+    pub pixel: (u32, u32),
+    /// Its ray.
+    pub ray: Ray,
+    /// The method that was asked.
+    pub method: Method,
+    /// How many spheres the scene has.
+    pub spheres: usize,
+    /// All spheres that the line meets: what is seen first, then what is behind.
+    pub meetings: Vec<Meeting>,
+    /// The sphere whose quadratic is shown; none in an empty scene.
+    pub subject: Option<Subject>,
+}
+
+/// A sphere that the line of the ray meets.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Meeting {
+    /// Number of the sphere in the scene, from 0.
+    pub body: usize,
+    /// The class and the roots.
+    pub solution: Solution,
+}
+
+/// The sphere whose quadratic is shown, with what came out of it.
+#[derive(Debug, Clone)]
+pub struct Subject {
+    /// Number of the sphere in the scene, from 0.
+    pub body: usize,
+    /// Its shape and place.
+    pub sphere: Sphere,
+    /// What its author calls it.
+    pub name: Option<Box<str>>,
+    /// How it came to be the one shown.
+    pub why: Why,
+    /// A, B, C and Δ.
+    pub coefficients: Coefficients,
+    /// The class and the roots.
+    pub solution: Solution,
+    /// The method's own steps, each beside what it would have got without rounding.
+    pub trace: Trace,
+    /// What is seen of it.
+    pub sight: Option<Sight>,
+}
+
+/// The visible point of a sphere.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sight {
+    /// The visible root.
+    pub t: f32,
+    /// p = p0 + t·d.
+    pub point: Vec3,
+    /// The outward unit normal (p − c)/r; zero for a point sphere.
+    pub normal: Vec3,
+    /// cos θ between the ray and the normal, turned to the eye.
+    pub cosine: f32,
+}
+
+/// Why a sphere is the one shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Why {
+    /// It is the nearest one that the ray hits.
+    NearestHit,
+    /// The person chose it among those on the line.
+    Chosen,
+    /// The ray hits nothing, and this one is selected.
+    Selected,
+    /// The ray hits nothing, and this one is the nearest to being hit: it has the largest Δ/(4Ar²).
+    NearestMiss,
+}
+
+impl Why {
+    /// The reason in a few words.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::NearestHit => "nearest hit",
+            Self::Chosen => "chosen",
+            Self::Selected => "selected",
+            Self::NearestMiss => "nearest to being hit",
+        }
+    }
+}
+
+impl Reading {
+    /// Asks `method` about every sphere of `scene` along `ray`.
+    ///
+    /// Shown is the `chosen` sphere if the line meets it, else the nearest hit, else the `selected` one,
+    /// else the one nearest to being hit.
+    pub fn take(
+        scene: &Scene,
+        pixel: (u32, u32),
+        ray: Ray,
+        method: Method,
+        selected: Option<usize>,
+        chosen: Option<usize>,
+    ) -> Self {
+        let meetings = meetings(scene, &ray, method);
+        let pick = meetings
+            .iter()
+            .find(|m| Some(m.body) == chosen)
+            .map(|m| (m.body, Why::Chosen))
+            .or_else(|| {
+                let first = meetings.first()?;
+                first.solution.visible()?;
+                Some((first.body, Why::NearestHit))
+            })
+            .or_else(|| {
+                let selected = selected.filter(|&s| s < scene.bodies.len())?;
+                Some((selected, Why::Selected))
+            })
+            .or_else(|| Some((nearest_miss(&scene.bodies, &ray)?, Why::NearestMiss)));
+        Self {
+            pixel,
+            ray,
+            method,
+            spheres: scene.bodies.len(),
+            subject: pick.map(|(body, why)| subject(scene, body, why, &ray, method)),
+            meetings,
+        }
+    }
+}
+
+fn meetings(scene: &Scene, ray: &Ray, method: Method) -> Vec<Meeting> {
+    let mut meetings: Vec<_> = scene
+        .bodies
+        .iter()
+        .enumerate()
+        .map(|(body, b)| Meeting {
+            body,
+            solution: method.solve(ray, &b.sphere),
+        })
+        .filter(|m| m.solution.class.meets())
+        .collect();
+    // A stable sort: of two spheres at equal t the first listed comes first, as in the picture.
+    meetings.sort_by(|m, n| {
+        let key = |m: &Meeting| m.solution.visible().unwrap_or(f32::INFINITY);
+        key(m).total_cmp(&key(n)).then_with(|| {
+            let hidden = |m: &Meeting| m.solution.visible().is_none();
+            hidden(m).cmp(&hidden(n))
+        })
+    });
+    meetings
+}
+
+/// The sphere with the largest Δ/(4Ar²) = 1 − (p/r)², where p is the line's distance from its centre.
+fn nearest_miss(bodies: &[Body], ray: &Ray) -> Option<usize> {
+    let d = ray.direction.as_dvec3();
+    let closeness = |body: &Body| {
+        let o = ray.origin.as_dvec3() - body.sphere.center.as_dvec3();
+        let r = f64::from(body.sphere.radius);
+        let distance_squared = o.cross(d).length_squared() / d.length_squared();
+        1.0 - distance_squared / (r * r)
+    };
+    (0..bodies.len()).max_by(|&i, &j| {
+        let key = |i: usize| {
+            let closeness = closeness(&bodies[i]);
+            if closeness.is_nan() {
+                f64::NEG_INFINITY
+            } else {
+                closeness
+            }
+        };
+        key(i).total_cmp(&key(j)).then(j.cmp(&i))
+    })
+}
+
+fn subject(scene: &Scene, body: usize, why: Why, ray: &Ray, method: Method) -> Subject {
+    let Body { sphere, name, .. } = &scene.bodies[body];
+    let solution = method.solve(ray, sphere);
+    Subject {
+        body,
+        sphere: *sphere,
+        name: name.clone(),
+        why,
+        coefficients: method.coefficients(ray, sphere),
+        solution,
+        trace: method.trace(ray, sphere),
+        sight: solution.visible().map(|t| sight(ray, sphere, &solution, t)),
+    }
+}
+
+/// The visible point, its normal, and the angle at which the ray meets the surface.
+fn sight(ray: &Ray, sphere: &Sphere, solution: &Solution, t: f32) -> Sight {
+    let d = ray.direction.as_dvec3();
+    let point = ray.origin.as_dvec3() + f64::from(t) * d;
+    let out = point - sphere.center.as_dvec3();
+    let normal = out.try_normalize().unwrap_or(DVec3::ZERO);
+    let towards_eye = if solution.place() == Some(Place::Inside) {
+        -normal
+    } else {
+        normal
+    };
+    Sight {
+        t,
+        point: point.as_vec3(),
+        normal: normal.as_vec3(),
+        cosine: (-d.normalize_or_zero()).dot(towards_eye) as f32,
+    }
+}

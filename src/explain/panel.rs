@@ -1,0 +1,444 @@
+//! A reading as lines of text, each piece with the role it plays.
+//!
+//! ```text
+//! p0   20, 20, 0
+//! d    0, 0, 1
+//! sphere 1 of 1, r 10           nearest hit
+//! c    20, 20, 20
+//!
+//! A    d·d            1
+//!   = 0² + 0² + 1²
+//! B    2 d·(p0−c)    −40
+//!   …
+//! ```
+
+use std::cmp::Ordering;
+
+use glam::Vec3;
+
+use super::wrap;
+use super::{Digits, Meeting, Reading, Subject, number, vector};
+use crate::method::format::Signs;
+use crate::method::trace::{Measured, ulps_text};
+use crate::method::{Class, Coefficients, Place, Precision, Solution};
+
+/// One line of a panel.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Line {
+    /// Its pieces, from left to right.
+    pub spans: Vec<Span>,
+    /// Which lines go first when there is no room: those with the largest value; 0 stays.
+    pub spare: u8,
+}
+
+/// A piece of text that plays one role.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Span {
+    /// What it says.
+    pub text: String,
+    /// What it is.
+    pub role: Role,
+}
+
+/// What a piece of text is, for whoever colours it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Role {
+    /// Words.
+    Plain,
+    /// The name of a quantity.
+    Label,
+    /// A formula in letters.
+    Formula,
+    /// A number that came out.
+    Value,
+    /// What may be skipped at a first reading.
+    Faint,
+    /// The verdict on a class.
+    Verdict(Class),
+    /// Something is wrong.
+    Warning,
+    /// A number that is another one than before.
+    Changed,
+    /// Where the person is in a list.
+    Current,
+}
+
+impl Line {
+    pub(super) fn new(spare: u8) -> Self {
+        Self {
+            spans: Vec::new(),
+            spare,
+        }
+    }
+
+    /// A line of words that stays.
+    pub fn plain(text: impl Into<String>) -> Self {
+        Self::new(0).with(Role::Plain, text)
+    }
+
+    pub(super) fn with(mut self, role: Role, text: impl Into<String>) -> Self {
+        self.spans.push(Span {
+            text: text.into(),
+            role,
+        });
+        self
+    }
+
+    /// Pads with blanks up to column `column`.
+    pub(super) fn to(self, column: usize) -> Self {
+        let gap = column.saturating_sub(self.width());
+        self.with(Role::Plain, " ".repeat(gap))
+    }
+
+    /// Number of characters.
+    pub fn width(&self) -> usize {
+        self.spans.iter().map(|s| s.text.chars().count()).sum()
+    }
+
+    /// The text without roles, and without blanks at its end.
+    pub fn text(&self) -> String {
+        let text: String = self.spans.iter().map(|s| s.text.as_str()).collect();
+        text.trim_end().to_owned()
+    }
+}
+
+const LABEL_WIDTH: usize = 5;
+/// What stands between a centre and its radius.
+const RADIUS_LABEL: &str = "   r ";
+/// Where the formula with the numbers put in starts.
+const SUBSTITUTED: usize = 2;
+
+/// The panel for a reading, in lines of at most `width` characters where that is possible.
+pub fn lines(reading: &Reading, width: usize, digits: Digits) -> Vec<Line> {
+    let mut out = Vec::new();
+    let in_room = |v| fitting_vector(v, width.saturating_sub(LABEL_WIDTH), digits);
+    out.push(labelled("p0", &in_room(reading.ray.origin), 0));
+    out.push(labelled("d", &in_room(reading.ray.direction), 0));
+    let Some(subject) = &reading.subject else {
+        out.push(Line::new(0));
+        out.push(Line::new(0).with(Role::Plain, "The scene has no spheres."));
+        return out;
+    };
+    out.extend(subject_lines(subject, reading.spheres, width, digits));
+    out.push(Line::new(5));
+    out.extend(coefficient_lines(reading, subject, width, digits));
+    out.extend(verdict_lines(subject, width, digits));
+    out.extend(sight_lines(subject, width, digits));
+    out.extend(meeting_lines(reading, subject.body, digits));
+    out
+}
+
+fn labelled(label: &str, value: &str, spare: u8) -> Line {
+    Line::new(spare)
+        .with(Role::Label, label)
+        .to(LABEL_WIDTH)
+        .with(Role::Value, value)
+}
+
+/// A vector with as many of the digits as the room holds, but never fewer than three.
+fn fitting_vector(v: Vec3, room: usize, digits: Digits) -> String {
+    let shortened = (3..=6).rev().map(Digits::Significant);
+    let mut choices = std::iter::once(digits).chain(shortened);
+    choices
+        .find(|&d| vector(v, d).chars().count() <= room)
+        .map_or_else(|| vector(v, Digits::Significant(3)), |d| vector(v, d))
+}
+
+fn subject_lines(subject: &Subject, spheres: usize, width: usize, digits: Digits) -> Vec<Line> {
+    let mut title = format!("sphere {} of {spheres}", subject.body + 1);
+    if let Some(name) = &subject.name {
+        title = format!("{title}, {name}");
+    }
+    let why = subject.why.words();
+    let room = width.saturating_sub(why.len() + 1);
+    let title = clip(&title, room.max(12));
+    let radius = number(subject.sphere.radius.into(), Precision::Binary32, digits);
+    let room = width.saturating_sub(LABEL_WIDTH + RADIUS_LABEL.len() + radius.chars().count());
+    vec![
+        Line::new(1)
+            .with(Role::Plain, title)
+            .to(width.saturating_sub(why.len()))
+            .with(Role::Faint, why),
+        Line::new(0)
+            .with(Role::Label, "c")
+            .to(LABEL_WIDTH)
+            .with(
+                Role::Value,
+                fitting_vector(subject.sphere.center, room, digits),
+            )
+            .with(Role::Label, RADIUS_LABEL)
+            .with(Role::Value, radius),
+    ]
+}
+
+fn coefficient_lines(
+    reading: &Reading,
+    subject: &Subject,
+    width: usize,
+    digits: Digits,
+) -> Vec<Line> {
+    let Coefficients {
+        precision,
+        a,
+        b,
+        c,
+        discriminant,
+    } = subject.coefficients;
+    let show = |x: f64| number(x, precision, digits);
+    let in_brackets = |x: f64, n: usize| bracketed(&number(x, precision, Digits::Significant(n)));
+
+    let d = reading.ray.direction.to_array().map(f64::from);
+    let o = (reading.ray.origin - subject.sphere.center)
+        .to_array()
+        .map(f64::from);
+    let r = f64::from(subject.sphere.radius);
+    let squares = |v: [f64; 3], n| v.map(|x| format!("{}²", in_brackets(x, n))).join(" + ");
+    let product = |n| {
+        let terms = [0, 1, 2].map(|i| format!("{}·{}", in_brackets(d[i], n), in_brackets(o[i], n)));
+        format!("2({})", terms.join(" + "))
+    };
+    let distance = |n| format!("{} − {}²", squares(o, n), in_brackets(r, n));
+    let short_distance = |n| {
+        let both = [c + r * r, r * r].map(|x| in_brackets(x, n));
+        format!("{} − {}", both[0], both[1])
+    };
+    let discriminant_of = |n| {
+        let [a, b, c] = [a, b, c].map(|x| in_brackets(x, n));
+        format!("{b}² − 4·{a}·{c}")
+    };
+    let short_difference = |n| {
+        let both = [b * b, 4.0 * a * c].map(|x| in_brackets(x, n));
+        format!("{} − {}", both[0], both[1])
+    };
+    let dot = |n| format!("2·{}", in_brackets(b / 2.0, n));
+    let rows = [
+        ("A", "d·d", widest(width, &|n| squares(d, n), None), a),
+        ("B", "2 d·(p0−c)", widest(width, &product, Some(&dot)), b),
+        (
+            "C",
+            "|p0−c|² − r²",
+            widest(width, &distance, Some(&short_distance)),
+            c,
+        ),
+        (
+            "Δ",
+            "B² − 4AC",
+            widest(width, &discriminant_of, Some(&short_difference)),
+            discriminant,
+        ),
+    ];
+    let mut out = Vec::new();
+    let trace = &subject.trace;
+    let measured = [&trace.a, &trace.b, &trace.c, &trace.discriminant];
+    for ((label, formula, substituted, value), measured) in rows.into_iter().zip(measured) {
+        out.push(
+            Line::new(0)
+                .with(Role::Label, label)
+                .to(LABEL_WIDTH)
+                .with(Role::Formula, formula)
+                .to(VALUE_COLUMN)
+                .with(Role::Value, hang(&show(value))),
+        );
+        out.push(
+            Line::new(3)
+                .to(SUBSTITUTED)
+                .with(Role::Faint, format!("= {substituted}")),
+        );
+        out.extend(exact_line(measured, width));
+    }
+    out
+}
+
+/// What the number should be, and how far off it is; nothing if it is right.
+fn exact_line(measured: &Measured, width: usize) -> Option<Line> {
+    let ulps = measured.ulps().filter(|&ulps| ulps != 0.0)?;
+    let off = format!("  {} ulp", ulps_text(ulps, SIGNS));
+    let room = width.saturating_sub(SUBSTITUTED + "exactly ".len() + off.chars().count());
+    let exact = (4..=MOST_DIGITS)
+        .rev()
+        .filter_map(|digits| measured.exact_text(digits, SIGNS))
+        .find(|text| text.chars().count() <= room)
+        .or_else(|| measured.exact_text(3, SIGNS))?;
+    // A number that is merely rounded is no news; one that is further off is.
+    let (role, spare) = if ulps.abs() <= HALF_ULP {
+        (Role::Faint, 4)
+    } else if ulps.abs() < MANY_ULPS {
+        (Role::Faint, 1)
+    } else {
+        (Role::Warning, 0)
+    };
+    let text = format!("exactly {exact}{off}");
+    Some(Line::new(spare).to(SUBSTITUTED).with(role, text))
+}
+
+/// As many digits of an exact value as tell any two neighbours of binary64 apart.
+const MOST_DIGITS: usize = 17;
+/// The error of a number that is the exact value rounded once.
+const HALF_ULP: f64 = 0.5;
+const SIGNS: Signs = Signs::Typographic;
+/// From this error on, a third of the bits of a binary32 are gone.
+const MANY_ULPS: f64 = 256.0;
+
+/// Where values stand, their signs one to the left.
+const VALUE_COLUMN: usize = 19;
+
+/// A value with a blank where a minus sign would be, so that digits stand under digits.
+fn hang(value: &str) -> String {
+    if value.starts_with('−') {
+        value.to_owned()
+    } else {
+        format!(" {value}")
+    }
+}
+
+fn bracketed(value: &str) -> String {
+    if value.starts_with('−') {
+        format!("({value})")
+    } else {
+        value.to_owned()
+    }
+}
+
+/// An expression in numbers of that many digits.
+type Expression<'a> = &'a dyn Fn(usize) -> String;
+
+/// The expression with as many digits as the width holds, at least three; else the shorter one.
+fn widest(width: usize, expression: Expression<'_>, shorter: Option<Expression<'_>>) -> String {
+    let room = width.saturating_sub(SUBSTITUTED + 2);
+    let fits = |e: &String| e.chars().count() <= room;
+    let in_full = (3..=7).rev().map(expression).find(fits);
+    let in_short = || (3..=7).rev().map(shorter?).find(fits);
+    in_full
+        .or_else(in_short)
+        .or_else(|| Some(expression(2)).filter(fits))
+        .unwrap_or_else(|| clip(&shorter.unwrap_or(expression)(2), room.max(8)))
+}
+
+/// Text of at most `room` characters, with a mark where it was cut.
+fn clip(text: &str, room: usize) -> String {
+    if text.chars().count() <= room {
+        return text.to_owned();
+    }
+    let kept: String = text.chars().take(room.saturating_sub(1)).collect();
+    format!("{kept}…")
+}
+
+fn verdict_lines(subject: &Subject, width: usize, digits: Digits) -> Vec<Line> {
+    let Solution { class, near, far } = subject.solution;
+    let verdict = match class {
+        Class::Miss => "Δ < 0  miss: no point in common",
+        Class::Tangent => "Δ = 0  tangent: one point, it touches",
+        Class::Secant => "Δ > 0  secant: two points",
+        Class::Nan => "Δ is not a number: no answer",
+    };
+    let mut out = vec![
+        Line::new(4),
+        Line::new(0).with(Role::Verdict(class), clip(verdict, width)),
+    ];
+    if let Some(wrong) = subject.trace.verdict(SIGNS) {
+        let lines = wrap(&wrong, width).into_iter();
+        out.extend(lines.map(|text| Line::new(0).with(Role::Warning, text)));
+    }
+    if class.meets() {
+        let [near, far] = [near, far].map(|t| number(t.into(), Precision::Binary32, digits));
+        let exact = |m: &Option<Measured>| m.as_ref().and_then(|m| exact_line(m, width));
+        out.push(root("near", "(−B − √Δ) / 2A", &near));
+        out.extend(exact(&subject.trace.near));
+        out.push(root("far", "(−B + √Δ) / 2A", &far));
+        out.extend(exact(&subject.trace.far));
+    }
+    let words = match subject.solution.place() {
+        Some(Place::Hit) => "hit: in front of the eye",
+        Some(Place::Inside) => "inside: the eye is in the sphere",
+        Some(Place::Behind) => "behind the eye: not seen",
+        None => return out,
+    };
+    out.push(Line::new(0).with(Role::Plain, words));
+    out
+}
+
+fn root(label: &str, formula: &str, value: &str) -> Line {
+    Line::new(0)
+        .with(Role::Label, label)
+        .to(LABEL_WIDTH)
+        .with(Role::Formula, formula)
+        .to(VALUE_COLUMN + 1)
+        .with(Role::Value, hang(value))
+}
+
+fn sight_lines(subject: &Subject, width: usize, digits: Digits) -> Vec<Line> {
+    let Some(sight) = subject.sight else {
+        return Vec::new();
+    };
+    let in_room = |v| fitting_vector(v, width.saturating_sub(LABEL_WIDTH), digits);
+    let cosine = number(
+        sight.cosine.into(),
+        Precision::Binary32,
+        Digits::Significant(4),
+    );
+    vec![
+        labelled("p", &in_room(sight.point), 1),
+        labelled("n", &in_room(sight.normal), 1),
+        Line::new(2)
+            .with(Role::Label, "cos θ ")
+            .with(Role::Value, cosine),
+    ]
+}
+
+/// The other spheres on the line, nearest first, if there is more than the one shown.
+fn meeting_lines(reading: &Reading, shown: usize, digits: Digits) -> Vec<Line> {
+    if reading.meetings.len() < 2 {
+        return Vec::new();
+    }
+    let mut out = vec![
+        Line::new(4),
+        Line::new(1).with(
+            Role::Plain,
+            format!("{} spheres on this line", reading.meetings.len()),
+        ),
+    ];
+    for (rank, meeting) in reading.meetings.iter().enumerate() {
+        let spare = match rank.cmp(&3) {
+            Ordering::Less => 1,
+            _ => 2,
+        };
+        out.push(meeting_line(meeting, meeting.body == shown, spare, digits));
+    }
+    out
+}
+
+fn meeting_line(meeting: &Meeting, shown: bool, spare: u8, digits: Digits) -> Line {
+    let Solution { class, near, far } = meeting.solution;
+    let [near, far] = [near, far].map(|t| number(t.into(), Precision::Binary32, digits));
+    let roots = if class == Class::Tangent {
+        format!("t {near}")
+    } else {
+        format!("t {near}, {far}")
+    };
+    let mark = if shown { "▸" } else { " " };
+    let place = meeting.solution.place().map_or("", Place::name);
+    Line::new(spare)
+        .with(Role::Label, format!("{mark}{:<4}", meeting.body + 1))
+        .with(Role::Value, roots)
+        .with(Role::Faint, format!("  {place}"))
+}
+
+/// The lines that fit into `height`, the most spare ones left out first.
+///
+/// What still does not fit is cut at the bottom; the caller marks that it was.
+pub fn fit(mut lines: Vec<Line>, height: usize) -> Vec<Line> {
+    while lines.len() > height {
+        let Some(most) = lines.iter().map(|l| l.spare).max().filter(|&s| s > 0) else {
+            break;
+        };
+        if let Some(last) = lines.iter().rposition(|l| l.spare == most) {
+            lines.remove(last);
+        }
+    }
+    lines
+}
+
+/// The lines as plain text, each ended by a newline.
+pub fn plain_text(lines: &[Line]) -> String {
+    lines.iter().map(|l| l.text() + "\n").collect()
+}

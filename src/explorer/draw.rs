@@ -1,0 +1,478 @@
+//! Draws the explorer's state into a buffer of cells. Nothing is changed here.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect};
+use ratatui::style::Style as CellStyle;
+use unicode_width::UnicodeWidthStr;
+
+use super::Explorer;
+use super::action::{Action, FOOTER, Group};
+use super::command::WITH_ARGUMENT;
+use super::field::Field;
+use super::layout::{self, LEAST};
+use super::mode::{Form, Message, Mode, Prompt};
+use super::theme::Theme;
+use crate::explain::{self, Glyphs, Line};
+use crate::method::Place;
+use crate::render::Style;
+
+/// Writes text into cells: cut at the edge, spelt in the characters that there are.
+pub(super) struct Pen<'a> {
+    pub(super) buffer: &'a mut Buffer,
+    pub(super) glyphs: Glyphs,
+    pub(super) theme: Theme,
+}
+
+impl Pen<'_> {
+    /// Writes `text` from (x, y) in at most `room` columns; returns the column after it.
+    pub(super) fn text(&mut self, x: u16, y: u16, room: u16, text: &str, style: CellStyle) -> u16 {
+        if !self.buffer.area.contains(Position::new(x, y)) {
+            return x;
+        }
+        let text = self.glyphs.spell(text);
+        let cut = if text.width() > room.into() {
+            cut(&text, room.into(), self.glyphs.spell("…").as_str())
+        } else {
+            text
+        };
+        self.buffer.set_stringn(x, y, cut, room.into(), style).0
+    }
+
+    /// A border around `area` with a title in its upper and one in its lower edge.
+    pub(super) fn frame(&mut self, area: Rect, title: &str, foot: &str) {
+        if area.width < 2 || area.height < 2 {
+            return;
+        }
+        let [h, v, corners @ ..] = match self.glyphs {
+            Glyphs::Unicode => ["─", "│", "┌", "┐", "└", "┘"],
+            Glyphs::Ascii => ["-", "|", "+", "+", "+", "+"],
+        };
+        let style = Theme::border();
+        let (right, bottom) = (area.right() - 1, area.bottom() - 1);
+        for x in area.left() + 1..right {
+            self.buffer.set_string(x, area.top(), h, style);
+            self.buffer.set_string(x, bottom, h, style);
+        }
+        for y in area.top() + 1..bottom {
+            self.buffer.set_string(area.left(), y, v, style);
+            self.buffer.set_string(right, y, v, style);
+        }
+        let places = [
+            (area.left(), area.top()),
+            (right, area.top()),
+            (area.left(), bottom),
+            (right, bottom),
+        ];
+        for ((x, y), corner) in places.into_iter().zip(corners) {
+            self.buffer.set_string(x, y, corner, style);
+        }
+        let room = area.width.saturating_sub(4);
+        for (y, text) in [(area.top(), title), (bottom, foot)] {
+            if !text.is_empty() && room > 4 {
+                self.text(area.x + 2, y, room, &format!(" {text} "), CellStyle::new());
+            }
+        }
+    }
+
+    /// Lines with roles, from the top of `area`.
+    pub(super) fn lines(&mut self, area: Rect, lines: &[Line]) {
+        for (y, line) in (area.top()..area.bottom()).zip(lines) {
+            let mut x = area.x;
+            for span in &line.spans {
+                let room = area.right().saturating_sub(x);
+                x = self.text(x, y, room, &span.text, self.theme.role(span.role));
+            }
+        }
+    }
+}
+
+/// The first columns of `text`, ending in a mark that says it goes on.
+fn cut(text: &str, room: usize, mark: &str) -> String {
+    let Some(room) = room.checked_sub(mark.width()) else {
+        return String::new();
+    };
+    let mut kept = String::new();
+    for c in text.chars() {
+        let next = format!("{kept}{c}");
+        if next.width() > room {
+            break;
+        }
+        kept = next;
+    }
+    kept + mark
+}
+
+impl Explorer {
+    /// Draws everything; where the terminal's own cursor belongs comes back.
+    ///
+    /// [`Explorer::prepare`] must have been called for the size of the buffer.
+    pub fn draw(&self, buffer: &mut Buffer) -> Option<Position> {
+        let area = buffer.area;
+        let mut pen = Pen {
+            buffer,
+            glyphs: self.options.glyphs,
+            theme: Theme::new(self.options.depth),
+        };
+        let Some(layout) = layout::of_scene(self.scene(), self.options, area) else {
+            too_small(&mut pen, area);
+            return None;
+        };
+        self.draw_title(&mut pen, layout.title);
+        if let Mode::Help { scroll } = self.mode {
+            let body = layout.view.union(layout.panel).union(layout.strip);
+            draw_help(&mut pen, body, scroll);
+            return self.draw_footer(&mut pen, layout.footer);
+        }
+        if self.board {
+            let body = layout.view.union(layout.panel).union(layout.strip);
+            self.draw_board(&mut pen, body);
+            return self.draw_footer(&mut pen, layout.footer);
+        }
+        let cell = self.draw_view(&mut pen, layout.view);
+        let field = match &self.mode {
+            Mode::Form(_) if layout.panel.is_empty() => {
+                let body = layout.view.union(layout.strip);
+                self.draw_form(&mut pen, body)
+            }
+            Mode::Form(_) => self.draw_form(&mut pen, layout.panel),
+            _ => {
+                self.draw_panels(&mut pen, layout.panel);
+                self.draw_strip(&mut pen, layout.strip);
+                None
+            }
+        };
+        // Last, since a long message covers what is above it.
+        let footer = self.draw_footer(&mut pen, layout.footer);
+        footer.or(field).or(cell)
+    }
+
+    fn draw_title(&self, pen: &mut Pen<'_>, area: Rect) {
+        let strong = Theme::strong();
+        let spheres = self.scene().bodies.len();
+        let plural = if spheres == 1 { "" } else { "s" };
+        let unsaved = if self.is_changed() { "unsaved  " } else { "" };
+        let right = format!("{unsaved}{spheres} sphere{plural}  ? help ");
+        let width = right.width() as u16;
+        let room = area.width.saturating_sub(width + 1);
+        let name = format!(" {}", self.scene().name);
+        let x = pen.text(area.x, area.y, room, &name, strong);
+        let projection = match self.scene().camera.projection {
+            crate::scene::Projection::Orthographic { .. } => "orthographic",
+            crate::scene::Projection::Perspective { .. } => "perspective",
+        };
+        let options = self.options;
+        let words = [
+            options.method.name(),
+            options.view.shown_in(options.style).name(),
+            options.style.name(),
+            projection,
+        ];
+        let mut x = x;
+        for word in words {
+            // A word that has no room is left out whole: the panel and the help page say it too.
+            if usize::from(x) + word.len() + 3 <= usize::from(room) {
+                x = pen.text(x + 3, area.y, room, word, CellStyle::new());
+            }
+        }
+        if area.width > width {
+            pen.text(
+                area.right() - width,
+                area.y,
+                width,
+                &right,
+                CellStyle::new(),
+            );
+        }
+    }
+
+    /// Keys, or a message, or a question; the place of the text cursor if something is typed here.
+    fn draw_footer(&self, pen: &mut Pen<'_>, area: Rect) -> Option<Position> {
+        let (x, y, room) = (area.x + 1, area.y, area.width.saturating_sub(1));
+        if let Mode::Prompt(prompt) = &self.mode {
+            return Some(self.draw_prompt(pen, area, prompt));
+        }
+        if let Mode::Ask(question) = &self.mode {
+            pen.text(x, y, room, &question.text(), Theme::strong());
+            return None;
+        }
+        if let Some(message) = &self.message {
+            draw_message(pen, area, message);
+            return None;
+        }
+        let keys: &[(&str, &str)] = match self.mode {
+            Mode::Help { .. } => &[("arrows", "scroll"), ("esc", "back")],
+            Mode::Form(Form { typing: None, .. }) => &[
+                ("arrows", "choose"),
+                ("enter", "type a value"),
+                ("u", "undo"),
+                ("esc", "done"),
+            ],
+            Mode::Form(_) => &[("enter", "take it"), ("esc", "leave it as it was")],
+            _ => FOOTER,
+        };
+        let mut x = x;
+        for (key, word) in keys {
+            let width = (key.len() + word.len() + 1) as u16;
+            if x + width >= area.right() {
+                break;
+            }
+            x = pen.text(x, y, width, key, Theme::strong());
+            x = pen.text(x + 1, y, width, word, Theme::faint()) + 2;
+        }
+        None
+    }
+
+    fn draw_prompt(&self, pen: &mut Pen<'_>, area: Rect, prompt: &Prompt) -> Position {
+        let question = prompt.purpose.question();
+        let x = pen.text(area.x, area.y, area.width, question, Theme::strong());
+        let room = area.right().saturating_sub(x);
+        let text: Vec<char> = prompt.line.text().chars().collect();
+        let width = |from: usize| -> usize {
+            let shown: String = text[from..prompt.line.cursor()].iter().collect();
+            shown.width()
+        };
+        // A line that is longer than its room scrolls, so that the cursor is always seen.
+        let first = (0..=prompt.line.cursor())
+            .find(|&from| width(from) < usize::from(room.max(1)))
+            .unwrap_or(prompt.line.cursor());
+        let shown: String = text[first..].iter().collect();
+        let end = pen.text(x, area.y, room, &shown, CellStyle::new());
+        let aside = match (&self.message, &prompt.completions) {
+            (Some(message), _) => Some((message.text.clone(), pen.theme.warning())),
+            (None, Some((lines, at))) if lines.len() > 1 => {
+                Some((format!("{} of {}", at + 1, lines.len()), Theme::faint()))
+            }
+            _ => None,
+        };
+        if let Some((text, style)) = aside {
+            let room = area.right().saturating_sub(end + 2);
+            pen.text(end + 2, area.y, room, &text, style);
+        }
+        Position::new(x + width(first) as u16, area.y)
+    }
+
+    /// The picture in its border; the place of the cursor's cell.
+    fn draw_view(&self, pen: &mut Pen<'_>, area: Rect) -> Option<Position> {
+        let size = self.size();
+        let step = format!("step {}", self.step);
+        let foot = match self.selected {
+            Some(at) => format!("sphere {} selected  {step}", at + 1),
+            None => step,
+        };
+        pen.frame(area, &format!("view {size}"), &foot);
+        let room = layout::inner(area);
+        let image = &self.picture.image;
+        let (left, top) = self.picture.offset;
+        let shown = (
+            (image.cols - left.min(image.cols)).min(room.width.into()) as u16,
+            (image.rows - top.min(image.rows)).min(room.height.into()) as u16,
+        );
+        // A picture that is smaller than its room stands in the middle.
+        let x0 = room.x + (room.width - shown.0) / 2;
+        let y0 = room.y + (room.height - shown.1) / 2;
+        for row in 0..shown.1 {
+            for col in 0..shown.0 {
+                let Some(cell) = image.cell(left + u32::from(col), top + u32::from(row)) else {
+                    continue;
+                };
+                let (fg, bg) = (pen.theme.color(cell.fg), pen.theme.color(cell.bg));
+                pen.buffer[(x0 + col, y0 + row)]
+                    .set_char(cell.glyph)
+                    .set_style(CellStyle::new().fg(fg).bg(bg));
+            }
+        }
+        self.mark_edges(pen, area, shown);
+        let (col, row) = self
+            .options
+            .style
+            .cell_of_pixel(self.cursor.0, self.cursor.1);
+        let (col, row) = (col.checked_sub(left)?, row.checked_sub(top)?);
+        if col >= shown.0.into() || row >= shown.1.into() {
+            return None;
+        }
+        let at = Position::new(x0 + col as u16, y0 + row as u16);
+        self.mark_cursor(pen, area, at);
+        Some(at)
+    }
+
+    /// Arrows in the border where the picture goes on.
+    fn mark_edges(&self, pen: &mut Pen<'_>, area: Rect, shown: (u16, u16)) {
+        let image = &self.picture.image;
+        let (left, top) = self.picture.offset;
+        let middle = Position::new(area.x + area.width / 2, area.y + area.height / 2);
+        let (right, bottom) = (area.right().max(1) - 1, area.bottom().max(1) - 1);
+        let style = pen.theme.mark();
+        for (more, x, y, arrow) in [
+            (left > 0, area.x, middle.y, "←"),
+            (left + u32::from(shown.0) < image.cols, right, middle.y, "→"),
+            (top > 0, middle.x, area.y, "↑"),
+            (top + u32::from(shown.1) < image.rows, middle.x, bottom, "↓"),
+        ] {
+            if more {
+                pen.text(x, y, 1, arrow, style);
+            }
+        }
+    }
+
+    /// Marks in the border that say in which column and row the cursor is.
+    fn mark_cursor(&self, pen: &mut Pen<'_>, area: Rect, at: Position) {
+        let style = pen.theme.mark();
+        let side = match self.options.style {
+            // Two pixels share the cell: the mark tells which of them is meant.
+            Style::Half if self.cursor.1.is_multiple_of(2) => "▀",
+            Style::Half => "▄",
+            _ => "▸",
+        };
+        let side = match pen.glyphs {
+            Glyphs::Unicode => side,
+            Glyphs::Ascii if side == "▀" => "\"",
+            Glyphs::Ascii if side == "▄" => "_",
+            Glyphs::Ascii => ">",
+        };
+        pen.text(at.x, area.y, 1, "▾", style);
+        pen.text(area.x, at.y, 1, side, style);
+    }
+
+    /// A, B, C, Δ and what is seen, in one line.
+    fn draw_strip(&self, pen: &mut Pen<'_>, area: Rect) {
+        let subject = self
+            .picture
+            .reading
+            .as_ref()
+            .and_then(|r| r.subject.as_ref());
+        let (Some(subject), false) = (subject, area.is_empty()) else {
+            return;
+        };
+        let c = subject.coefficients;
+        let show = |x: f64| explain::number(x, c.precision, explain::Digits::Significant(4));
+        let place = subject.solution.place().map_or("", Place::name);
+        let text = format!(
+            "{} {place} Δ {} A {} B {} C {}",
+            subject.solution.class,
+            show(c.discriminant),
+            show(c.a),
+            show(c.b),
+            show(c.c),
+        );
+        pen.text(area.x, area.y, area.width, &text, CellStyle::new());
+    }
+
+    /// The numbers that can be typed; the place of the text cursor while one is.
+    fn draw_form(&self, pen: &mut Pen<'_>, area: Rect) -> Option<Position> {
+        let Mode::Form(form) = &self.mode else {
+            return None;
+        };
+        let title = match self.selected {
+            Some(at) => format!("numbers of sphere {} and camera", at + 1),
+            None => "numbers of the camera".into(),
+        };
+        pen.frame(area, &title, "");
+        let room = layout::inner(area);
+        let fields = Field::of(self.scene(), self.selected);
+        // The list scrolls where it is longer than its room.
+        let first = (form.at + 1).saturating_sub(room.height.into());
+        let mut cursor = None;
+        for (y, (i, field)) in
+            (room.top()..room.bottom()).zip(fields.iter().enumerate().skip(first))
+        {
+            let style = if i == form.at {
+                Theme::chosen()
+            } else {
+                CellStyle::new()
+            };
+            let name = format!(" {:<15}", field.name());
+            let x = pen.text(room.x, y, room.width, &name, style);
+            let space = room.right().saturating_sub(x);
+            if let (true, Some(line)) = (i == form.at, &form.typing) {
+                pen.text(x, y, space, &line.text(), CellStyle::new());
+                cursor = Some(Position::new(
+                    (x + line.cursor() as u16).min(room.right().max(1) - 1),
+                    y,
+                ));
+            } else {
+                let value = field.get(self.scene(), self.selected);
+                let value = value.map_or(String::new(), |v| v.to_string());
+                pen.text(x, y, space, &value, CellStyle::new());
+            }
+        }
+        cursor
+    }
+}
+
+fn too_small(pen: &mut Pen<'_>, area: Rect) {
+    let (cols, rows) = LEAST;
+    let sentence = format!("rayscope needs {cols} columns and {rows} rows; q quits");
+    for (y, line) in (area.top()..area.bottom()).zip(explain::wrap(&sentence, area.width.into())) {
+        pen.text(area.x, y, area.width, &line, CellStyle::new());
+    }
+}
+
+/// A message over the footer; one that is too long for a line covers the lines above.
+fn draw_message(pen: &mut Pen<'_>, footer: Rect, message: &Message) {
+    let style = if message.warning {
+        pen.theme.warning()
+    } else {
+        CellStyle::new()
+    };
+    let room = footer.width.saturating_sub(2);
+    let lines = explain::wrap(&pen.glyphs.spell(&message.text), room.into());
+    let count = (lines.len() as u16).min(footer.y);
+    let top = footer.bottom() - count;
+    for (y, line) in (top..footer.bottom()).zip(&lines) {
+        let blank = " ".repeat(footer.width.into());
+        pen.buffer.set_string(footer.x, y, blank, Theme::plain());
+        pen.text(footer.x + 1, y, room, line, style);
+    }
+}
+
+/// A line of the help page: a heading, or keys and what they do.
+fn help() -> Vec<(String, String)> {
+    let mut out = Vec::new();
+    for group in Group::ALL {
+        out.push((group.title().to_owned(), String::new()));
+        for action in Action::ALL.iter().filter(|a| a.group() == group) {
+            out.push((
+                format!("  {}", action.keys().join(" ")),
+                action.help().into(),
+            ));
+        }
+        out.push(Default::default());
+    }
+    out.push(("Commands after :".into(), String::new()));
+    for (name, argument, help) in WITH_ARGUMENT {
+        out.push((format!("  {name} {argument}"), (*help).into()));
+    }
+    out
+}
+
+/// How many lines the help page has.
+pub(super) fn help_lines() -> usize {
+    help().len()
+}
+
+fn draw_help(pen: &mut Pen<'_>, area: Rect, scroll: usize) {
+    let lines = help();
+    let room = layout::inner(area);
+    let scroll = scroll.min(lines.len().saturating_sub(room.height.into()));
+    let below = lines
+        .len()
+        .saturating_sub(scroll + usize::from(room.height));
+    let foot = if below > 0 {
+        format!("{below} lines below: down, space")
+    } else {
+        String::new()
+    };
+    pen.frame(area, "keys", &foot);
+    for (y, (key, words)) in (room.top()..room.bottom()).zip(&lines[scroll..]) {
+        let x = pen.text(
+            room.x + 1,
+            y,
+            room.width.saturating_sub(1),
+            key,
+            Theme::strong(),
+        );
+        let column = (room.x + 24).max(x + 1);
+        let space = room.right().saturating_sub(column);
+        pen.text(column, y, space, words, CellStyle::new());
+    }
+}

@@ -1,0 +1,157 @@
+//! Where things stand on the screen.
+//!
+//! ```text
+//!  title ─────────────────────────────────────────────
+//! ┌ view ──────────────────┐┌ panel ─────────────────┐
+//! │                        ││                        │   wide: side by side
+//! └────────────────────────┘└────────────────────────┘   narrow: one above the other
+//!  footer ────────────────────────────────────────────   small: a strip for the panel
+//! ```
+
+use ratatui::layout::Rect;
+
+use super::Options;
+use crate::scene::Scene;
+
+/// The smallest screen that is drawn on, in columns and rows.
+pub const LEAST: (u16, u16) = (20, 6);
+/// From this width on the panel stands beside the view.
+const WIDE: u16 = 66;
+/// From this height on a narrow screen has room for view and panel.
+const TALL: u16 = 18;
+/// The panel's width: at least, and at most.
+const PANEL: (u16, u16) = (38, 58);
+/// What the border takes.
+const BORDER: u16 = 2;
+
+/// The parts of a screen; a part that has no room is empty.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Layout {
+    /// One line at the top.
+    pub title: Rect,
+    /// The picture with its border.
+    pub view: Rect,
+    /// The panel with its border.
+    pub panel: Rect,
+    /// One line that stands for the panel where there is no room for it.
+    pub strip: Rect,
+    /// One line at the bottom: keys, messages, questions.
+    pub footer: Rect,
+}
+
+impl Layout {
+    /// The parts of a screen of `area` that shows a picture of `picture` columns and rows, or one
+    /// that takes what room there is. None if the screen is too small.
+    pub fn of(area: Rect, picture: Option<(u32, u32)>) -> Option<Self> {
+        if area.width < LEAST.0 || area.height < LEAST.1 {
+            return None;
+        }
+        let row = |y, height| Rect::new(area.x, y, area.width, height);
+        let body = row(area.y + 1, area.height - 2);
+        let mut layout = Self {
+            title: row(area.y, 1),
+            footer: row(area.bottom() - 1, 1),
+            ..Self::default()
+        };
+        let wanted = picture.map(|(cols, rows)| {
+            let outer = |n: u32| u16::try_from(n).unwrap_or(u16::MAX).saturating_add(BORDER);
+            (outer(cols), outer(rows))
+        });
+        if area.width >= WIDE {
+            let most = body.width - PANEL.0;
+            let usual = body.width - (body.width * 2 / 5).clamp(PANEL.0, PANEL.1);
+            let rest = body.width - PANEL.1.min(most);
+            let view = wanted.map_or(usual, |(cols, _)| cols.clamp(rest.min(most), most));
+            (layout.view, layout.panel) = split_columns(body, view);
+        } else if area.height >= TALL {
+            let usual = body.height - body.height / 2;
+            let view = wanted.map_or(usual, |(_, rows)| rows.min(usual));
+            (layout.view, layout.panel) = split_rows(body, view);
+        } else {
+            (layout.view, layout.strip) = split_rows(body, body.height - 1);
+        }
+        Some(layout)
+    }
+}
+
+fn split_columns(area: Rect, left: u16) -> (Rect, Rect) {
+    let right = Rect::new(area.x + left, area.y, area.width - left, area.height);
+    (
+        Rect {
+            width: left,
+            ..area
+        },
+        right,
+    )
+}
+
+fn split_rows(area: Rect, top: u16) -> (Rect, Rect) {
+    let bottom = Rect::new(area.x, area.y + top, area.width, area.height - top);
+    (
+        Rect {
+            height: top,
+            ..area
+        },
+        bottom,
+    )
+}
+
+/// What is inside a border.
+pub fn inner(area: Rect) -> Rect {
+    if area.width < BORDER || area.height < BORDER {
+        return Rect::default();
+    }
+    Rect::new(
+        area.x + 1,
+        area.y + 1,
+        area.width - BORDER,
+        area.height - BORDER,
+    )
+}
+
+/// The layout of a scene's screen.
+pub fn of_scene(scene: &Scene, options: Options, area: Rect) -> Option<Layout> {
+    Layout::of(area, scene.pixels.map(|size| options.style.cells_of(size)))
+}
+
+/// Columns and rows that the picture of a scene has on a screen.
+pub fn picture_room(scene: &Scene, options: Options, cols: u16, rows: u16) -> (u16, u16) {
+    let area = Rect::new(0, 0, cols, rows);
+    let room = of_scene(scene, options, area).map_or(Rect::default(), |l| inner(l.view));
+    (room.width, room.height)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_parts_fill_every_screen_and_never_overlap() {
+        for width in (0..300).step_by(7) {
+            for height in (0..120).step_by(3) {
+                for picture in [None, Some((40, 20)), Some((400, 300)), Some((u32::MAX, 1))] {
+                    let area = Rect::new(0, 0, width, height);
+                    let Some(l) = Layout::of(area, picture) else {
+                        assert!(width < LEAST.0 || height < LEAST.1);
+                        continue;
+                    };
+                    let parts = [l.title, l.view, l.panel, l.strip, l.footer];
+                    let sum: u32 = parts.iter().map(|p| p.area()).sum();
+                    assert_eq!(sum, area.area(), "{area} {picture:?} {l:?}");
+                    assert!(
+                        parts
+                            .iter()
+                            .all(|p| p.intersection(area) == *p || p.is_empty())
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_tutorials_picture_fits_a_screen_of_80_by_24() {
+        let layout = Layout::of(Rect::new(0, 0, 80, 24), Some((40, 20))).unwrap();
+        assert_eq!(inner(layout.view), Rect::new(1, 2, 40, 20));
+        assert_eq!(layout.panel.width, 38);
+    }
+}

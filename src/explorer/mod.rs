@@ -1,0 +1,219 @@
+//! The explorer: its state, what each event does to it, and how it is drawn.
+//!
+//! State changes in [`Explorer::update`] and nowhere else. [`Explorer::prepare`] brings the picture
+//! up to date for a screen size, [`Explorer::draw`] reads and writes cells. No terminal is in here:
+//! a test, a terminal and a network connection drive the same code.
+
+mod act;
+pub mod action;
+mod command;
+mod document;
+mod draw;
+mod field;
+mod files;
+mod key;
+mod large;
+mod layout;
+mod mode;
+mod motion;
+mod panel;
+mod panels;
+mod picture;
+mod prompt;
+mod saving;
+mod spheres;
+mod stepping;
+mod theme;
+
+use ratatui::crossterm::event::{Event, KeyEventKind};
+
+use crate::explain::{Digits, Glyphs, Reading};
+use crate::method::Method;
+use crate::render::{ColorDepth, Style, View};
+use crate::scene::{Scene, Size, Source};
+
+use document::Document;
+use key::Key;
+use mode::{Message, Mode, Prompt, Purpose};
+use panel::Panel;
+use picture::Picture;
+use prompt::Line;
+use saving::FilePlace;
+use stepping::Prediction;
+
+/// How the explorer starts.
+#[derive(Debug, Clone, Copy)]
+pub struct Options {
+    /// The method that is asked first.
+    pub method: Method,
+    /// The style of the picture.
+    pub style: Style,
+    /// What the picture shows.
+    pub view: View,
+    /// Height of a cell over its width.
+    pub aspect: f64,
+    /// The colours that the terminal has.
+    pub depth: ColorDepth,
+    /// The characters that the terminal has.
+    pub glyphs: Glyphs,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            method: Method::default(),
+            style: Style::Half,
+            view: View::Shade,
+            aspect: 2.0,
+            depth: ColorDepth::Ansi256,
+            glyphs: Glyphs::Unicode,
+        }
+    }
+}
+
+/// The whole state of one person's explorer.
+#[derive(Debug)]
+pub struct Explorer {
+    document: Document,
+    /// The scene as it was opened: what reset and home go back to.
+    opened: Scene,
+    place: FilePlace,
+    options: Options,
+    cursor: (u32, u32),
+    selected: Option<usize>,
+    /// The sphere on the line that the person wants to see.
+    chosen: Option<usize>,
+    probe: Option<usize>,
+    step: f32,
+    usual_step: f32,
+    full_digits: bool,
+    scroll: usize,
+    /// The panel that the person asked for; others join it where there is room.
+    panel: Panel,
+    /// The step of the derivation that is shown.
+    step_at: usize,
+    prediction: Prediction,
+    /// One step is shown large, in the place of picture and panels.
+    board: bool,
+    /// The method that the chosen one is compared with; without it, the next one.
+    other_method: Option<Method>,
+    mode: Mode,
+    message: Option<Message>,
+    screen: (u16, u16),
+    picture: Picture,
+    ended: Option<u8>,
+}
+
+impl Explorer {
+    /// An explorer of a scene that has just been opened.
+    pub fn new(scene: Scene, source: &Source, options: Options) -> Self {
+        let picture = Picture::of(&scene);
+        let size = picture.rays.size;
+        let usual_step = usual_step(&scene);
+        Self {
+            opened: scene.clone(),
+            place: FilePlace::of(source),
+            options,
+            cursor: (size.width / 2, size.height / 2),
+            selected: (!scene.bodies.is_empty()).then_some(0),
+            document: Document::new(scene),
+            chosen: None,
+            probe: None,
+            step: usual_step,
+            usual_step,
+            full_digits: false,
+            scroll: 0,
+            panel: Panel::default(),
+            step_at: 0,
+            prediction: Prediction::default(),
+            board: false,
+            other_method: None,
+            mode: Mode::Normal,
+            message: None,
+            screen: (0, 0),
+            picture,
+            ended: None,
+        }
+    }
+
+    /// The scene as it is now.
+    pub const fn scene(&self) -> &Scene {
+        self.document.scene()
+    }
+
+    /// The pixel under the cursor.
+    pub const fn cursor(&self) -> (u32, u32) {
+        self.cursor
+    }
+
+    /// What the ray under the cursor found, as of the last [`Explorer::prepare`].
+    pub const fn reading(&self) -> Option<&Reading> {
+        self.picture.reading.as_ref()
+    }
+
+    /// The exit status, once the person has left.
+    pub const fn ended(&self) -> Option<u8> {
+        self.ended
+    }
+
+    /// Whether there are changes that were not saved.
+    pub fn is_changed(&self) -> bool {
+        self.document.is_changed()
+    }
+
+    /// Lets an event change the state; false if nothing on the screen can have changed.
+    pub fn update(&mut self, event: &Event) -> bool {
+        match event {
+            Event::Key(event) if event.kind != KeyEventKind::Release => {
+                self.message = None;
+                self.press(Key::of(*event));
+                true
+            }
+            Event::Paste(text) => self.paste(text),
+            Event::Resize(..) => true,
+            _ => false,
+        }
+    }
+
+    fn say(&mut self, text: impl Into<String>) {
+        self.message = Some(Message {
+            text: text.into(),
+            warning: false,
+        });
+    }
+
+    fn warn(&mut self, text: impl Into<String>) {
+        self.message = Some(Message {
+            text: text.into(),
+            warning: true,
+        });
+    }
+
+    fn prompt(&mut self, purpose: Purpose, text: &str) {
+        self.mode = Mode::Prompt(Prompt {
+            purpose,
+            line: Line::new(text),
+            completions: None,
+        });
+    }
+
+    /// The size of the picture, in pixels.
+    const fn size(&self) -> Size {
+        self.picture.rays.size
+    }
+
+    fn digits(&self) -> Digits {
+        if self.full_digits {
+            Digits::Full
+        } else {
+            Digits::Significant(6)
+        }
+    }
+}
+
+/// A step that suits what the camera sees: a power of two, so that sums of steps stay exact.
+fn usual_step(scene: &Scene) -> f32 {
+    let step = motion::window(&scene.camera) / 32.0;
+    let exponent = (step.log2().round()).clamp(-126.0, 120.0) as i32;
+    2.0_f32.powi(exponent)
+}

@@ -1,0 +1,181 @@
+//! The picture and the reading under the cursor: made anew only when what they depend on changed.
+
+use super::{Explorer, Options, layout};
+use crate::explain::{Drawn, Glyphs, Reading, Step, derivation};
+use crate::method::Method;
+use crate::render::{Frame, Image, Look, View, fit};
+use crate::scene::{PixelShape, Rays, Scene, Size};
+
+/// The picture on the screen, and what it was made from.
+#[derive(Debug)]
+pub(super) struct Picture {
+    pub(super) key: Option<PictureKey>,
+    pub(super) rays: Rays,
+    pub(super) frame: Frame,
+    pub(super) image: Image,
+    /// First column and row of the picture that are on the screen.
+    pub(super) offset: (u32, u32),
+    pub(super) reading: Option<Reading>,
+    pub(super) reading_key: Option<ReadingKey>,
+    /// The derivation of the reading.
+    pub(super) steps: Vec<Step>,
+    /// Which of its results differ from those of the reading before.
+    pub(super) changed: Vec<bool>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct PictureKey {
+    pub(super) version: u64,
+    pub(super) size: Size,
+    pub(super) shape: PixelShape,
+    pub(super) method: Method,
+    pub(super) view: View,
+    pub(super) look: Look,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct ReadingKey {
+    pub(super) picture: PictureKey,
+    pub(super) cursor: (u32, u32),
+    pub(super) selected: Option<usize>,
+    pub(super) chosen: Option<usize>,
+}
+
+impl Explorer {
+    /// Brings picture and panel up to date for a screen of this many columns and rows.
+    pub fn prepare(&mut self, cols: u16, rows: u16) {
+        self.screen = (cols, rows);
+        let room = layout::picture_room(self.scene(), self.options, cols, rows);
+        let Options {
+            style,
+            view,
+            aspect,
+            depth,
+            glyphs,
+            method,
+        } = self.options;
+        let (size, shape) = fit(self.scene(), style, room.0.into(), room.1.into(), aspect);
+        let key = PictureKey {
+            version: self.document.version(),
+            size,
+            shape,
+            method,
+            view: view.shown_in(style),
+            look: Look {
+                style,
+                depth,
+                ascii_only: glyphs == Glyphs::Ascii,
+            },
+        };
+        if self.picture.key != Some(key) {
+            self.scale_cursor(size);
+            let scene = self.document.scene();
+            let picture = &mut self.picture;
+            picture.rays = Rays::new(&scene.camera, size, shape);
+            picture.frame.render(scene, &picture.rays, method, key.view);
+            picture.image.draw(&picture.frame, scene, key.look);
+            picture.key = Some(key);
+        }
+        self.picture
+            .scroll_to(style.cell_of_pixel(self.cursor.0, self.cursor.1), room);
+        self.read(key);
+    }
+
+    /// Keeps the cursor on the same place of the picture when the number of pixels changes.
+    pub(super) fn scale_cursor(&mut self, size: Size) {
+        let Some(old) = self.picture.key.map(|k| k.size) else {
+            if self.scene().pixels.is_none() {
+                self.cursor = (size.width / 2, size.height / 2);
+            }
+            return;
+        };
+        let scaled = |at: u32, old: u32, new: u32| {
+            let middle = (f64::from(at) + 0.5) * f64::from(new) / f64::from(old.max(1));
+            (middle as u32).min(new.max(1) - 1)
+        };
+        self.cursor = (
+            scaled(self.cursor.0, old.width, size.width),
+            scaled(self.cursor.1, old.height, size.height),
+        );
+    }
+
+    pub(super) fn read(&mut self, picture: PictureKey) {
+        let key = ReadingKey {
+            picture,
+            cursor: self.cursor,
+            selected: self.selected,
+            chosen: self.chosen,
+        };
+        if self.picture.reading_key == Some(key) {
+            return;
+        }
+        let ray = self.picture.rays.ray(self.cursor.0, self.cursor.1);
+        self.picture.reading = Some(Reading::take(
+            self.scene(),
+            self.cursor,
+            ray,
+            self.options.method,
+            self.selected,
+            self.chosen,
+        ));
+        self.picture.reading_key = Some(key);
+        self.derive();
+    }
+
+    /// Derives the reading anew and notes which results are other ones than before.
+    fn derive(&mut self) {
+        let Some(reading) = &self.picture.reading else {
+            return;
+        };
+        let (x, y) = self.cursor;
+        let (col, row) = self.options.style.cell_of_pixel(x, y);
+        let cell = self.picture.image.cell(col, row);
+        let drawn = Drawn {
+            brightness: self.picture.frame.brightness(x, y),
+            glyph: cell.map_or(' ', |c| c.glyph),
+            style: self.options.style.name(),
+            view: self.options.view.shown_in(self.options.style).name(),
+        };
+        let steps = derivation(reading, self.scene(), &self.picture.rays, &drawn);
+        let before = std::mem::take(&mut self.picture.steps);
+        let is_new = |step: &Step| {
+            let old = before.iter().find(|old| old.name == step.name);
+            !before.is_empty() && old.is_none_or(|old| old.result != step.result)
+        };
+        self.picture.changed = steps.iter().map(is_new).collect();
+        self.picture.steps = steps;
+        self.prediction.revealed = false;
+    }
+}
+
+impl Picture {
+    /// No picture yet, of a scene whose rays are known if it fixes its pixels.
+    pub(super) fn of(scene: &Scene) -> Self {
+        let size = scene.pixels.unwrap_or(Size::new(1, 1));
+        Self {
+            key: None,
+            rays: Rays::new(&scene.camera, size, PixelShape::Own),
+            frame: Frame::new(),
+            image: Image::new(),
+            offset: (0, 0),
+            reading: None,
+            reading_key: None,
+            steps: Vec::new(),
+            changed: Vec::new(),
+        }
+    }
+
+    /// Scrolls a picture that is larger than its room by as little as shows the cursor's cell.
+    fn scroll_to(&mut self, cell: (u32, u32), room: (u16, u16)) {
+        let scrolled = |offset: u32, cell: u32, room: u32, all: u32| {
+            let least = (cell + 1).saturating_sub(room);
+            offset
+                .clamp(least, cell.max(least))
+                .min(all.saturating_sub(room))
+        };
+        self.offset = (
+            scrolled(self.offset.0, cell.0, room.0.into(), self.image.cols),
+            scrolled(self.offset.1, cell.1, room.1.into(), self.image.rows),
+        );
+    }
+}

@@ -1,0 +1,96 @@
+//! Opening and saving, and what is asked before something would be lost.
+
+use std::path::{Path, PathBuf};
+
+use super::Explorer;
+use super::files::{self, Stamp};
+use super::mode::{Mode, Purpose, Question};
+use crate::scene::{Scene, Source};
+
+/// Where the scene came from and goes to.
+#[derive(Debug, Clone)]
+pub(super) enum FilePlace {
+    Builtin,
+    File(Stamp),
+}
+
+impl FilePlace {
+    pub(super) fn of(source: &Source) -> Self {
+        match source {
+            Source::File(path) => Stamp::of(path).map_or(Self::Builtin, Self::File),
+            Source::Builtin(_) => Self::Builtin,
+        }
+    }
+}
+
+impl Explorer {
+    pub(super) fn suggested_file(&self) -> String {
+        match &self.place {
+            FilePlace::File(stamp) => stamp.path().display().to_string(),
+            FilePlace::Builtin => {
+                let name: String = self
+                    .scene()
+                    .name
+                    .chars()
+                    .map(|c| if c.is_alphanumeric() { c } else { '-' })
+                    .collect();
+                format!("{name}.toml")
+            }
+        }
+    }
+
+    pub(super) fn open(&mut self, name: &str) {
+        match Scene::open(name) {
+            Ok((scene, source)) => {
+                let (screen, options) = (self.screen, self.options);
+                *self = Self::new(scene, &source, options);
+                self.screen = screen;
+                let about = self.scene().about.clone().unwrap_or_default();
+                self.say(format!("{}. {about}", self.scene().name));
+            }
+            Err(e) => self.warn(e.to_string()),
+        }
+    }
+
+    pub(super) fn save(&mut self) {
+        match &self.place {
+            FilePlace::Builtin => {
+                let suggestion = self.suggested_file();
+                self.prompt(Purpose::SaveAs, &suggestion);
+            }
+            FilePlace::File(stamp) if stamp.is_current() => {
+                let path = stamp.path().to_owned();
+                self.write(&path);
+            }
+            FilePlace::File(stamp) => {
+                self.mode = Mode::Ask(Question::Overwrite {
+                    path: stamp.path().to_owned(),
+                    why: "was changed by somebody else since it was read",
+                });
+            }
+        }
+    }
+
+    pub(super) fn save_as(&mut self, path: PathBuf) {
+        let own = matches!(&self.place, FilePlace::File(stamp) if stamp.path() == path);
+        if own {
+            self.save();
+        } else if path.exists() {
+            let why = "exists already";
+            self.mode = Mode::Ask(Question::Overwrite { path, why });
+        } else {
+            self.write(&path);
+        }
+    }
+
+    pub(super) fn write(&mut self, path: &Path) {
+        match files::save(path, &self.scene().to_toml()) {
+            Ok(stamp) => {
+                self.place = FilePlace::File(stamp);
+                self.document.mark_saved();
+                self.say(format!("Saved {}.", path.display()));
+            }
+            Err(sentence) => self.warn(sentence),
+        }
+    }
+}

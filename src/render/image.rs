@@ -1,0 +1,565 @@
+//! The image: cells of a character and two colours, drawn from a frame in a style.
+
+use super::color::color_of;
+use super::ramp::Ramps;
+use super::{ColorDepth, Contact, Frame, Style, View};
+use crate::scene::{Rgb, Scene};
+
+/// How an image is to look.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Look {
+    /// How many pixels a cell shows, and with what.
+    pub style: Style,
+    /// How many colours there are.
+    pub depth: ColorDepth,
+    /// Whether to keep to the characters of ASCII, in every style.
+    pub ascii_only: bool,
+}
+
+/// A character and its colours; where there is none, the terminal's own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Cell {
+    /// The character, one cell wide.
+    pub glyph: char,
+    /// The colour of the character.
+    pub fg: Option<Rgb>,
+    /// The colour behind it.
+    pub bg: Option<Rgb>,
+}
+
+impl Cell {
+    /// Nothing to see.
+    pub const BLANK: Self = Self::plain(' ');
+
+    /// A character in the terminal's own colours.
+    pub const fn plain(glyph: char) -> Self {
+        Self {
+            glyph,
+            fg: None,
+            bg: None,
+        }
+    }
+
+    const fn of(glyph: char, fg: Option<Rgb>) -> Self {
+        Self {
+            glyph,
+            fg,
+            bg: None,
+        }
+    }
+}
+
+/// The cells of a picture, row by row.
+#[derive(Debug, Clone, Default)]
+pub struct Image {
+    /// Cells in a row.
+    pub cols: u32,
+    /// Rows.
+    pub rows: u32,
+    /// `cols` × `rows` cells.
+    pub cells: Vec<Cell>,
+    ramps: Ramps,
+}
+
+impl Image {
+    /// An image of no cells.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Draws `frame`, which was rendered from `scene`, in the place of what was here.
+    pub fn draw(&mut self, frame: &Frame, scene: &Scene, look: Look) {
+        let (cols, rows) = look.style.cells_of(frame.size());
+        self.ramps.set_depth(look.depth);
+        let mut painter = Painter {
+            frame,
+            scene,
+            look,
+            ramps: &mut self.ramps,
+        };
+        (self.cols, self.rows) = (cols, rows);
+        self.cells.clear();
+        self.cells.extend(
+            (0..rows)
+                .flat_map(|row| (0..cols).map(move |col| (col, row)))
+                .map(|(col, row)| painter.cell(col, row)),
+        );
+    }
+
+    /// The cell in this column and row, if the image has it.
+    pub fn cell(&self, col: u32, row: u32) -> Option<Cell> {
+        let inside = col < self.cols && row < self.rows;
+        let index = row as usize * self.cols as usize + col as usize;
+        inside.then(|| self.cells.get(index).copied()).flatten()
+    }
+
+    /// The rows of cells, from the top.
+    pub fn lines(&self) -> impl Iterator<Item = &[Cell]> {
+        // An image without columns has no cells, so the size of a chunk is never asked in vain.
+        self.cells.chunks(self.cols.max(1) as usize)
+    }
+}
+
+/// What a pixel contributes to its cell.
+#[derive(Debug, Clone, Copy)]
+struct Ink {
+    contact: Contact,
+    /// 0 to 1: how much of a hit there is to see.
+    brightness: f32,
+    color: Option<Rgb>,
+}
+
+/// What marks a pixel for which a method has no answer.
+const NO_ANSWER: char = '?';
+
+/// From dark to bright. Even the darkest is no blank: it is a hit.
+const RAMP: &[u8] = b".,:-=+*#%@";
+
+struct Painter<'a> {
+    frame: &'a Frame,
+    scene: &'a Scene,
+    look: Look,
+    ramps: &'a mut Ramps,
+}
+
+impl Painter<'_> {
+    fn cell(&mut self, col: u32, row: u32) -> Cell {
+        let (x, y) = self.look.style.pixel_of_cell(col, row);
+        match self.look.style {
+            Style::Half => self.half(x, y),
+            Style::Braille => self.braille(x, y),
+            Style::Ascii => self.ascii(x, y),
+            Style::Seed => Cell::plain(self.seed(x, y)),
+        }
+    }
+
+    /// What is to be seen at pixel (x, y); nothing where nothing is.
+    fn ink(&mut self, x: u32, y: u32) -> Option<Ink> {
+        let contact = self.frame.contact(x, y);
+        let brightness = match self.frame.view() {
+            _ if contact == Contact::Miss => return None,
+            _ if contact == Contact::Nan => 1.0,
+            View::Shade => self.frame.brightness(x, y),
+            View::Class => 1.0,
+            View::Outline if self.frame.outline(x, y) => 1.0,
+            View::Outline => return None,
+        };
+        if self.dithers() && contact != Contact::Nan && !self.has_dot(x, y) {
+            return None;
+        }
+        let color = (self.look.depth != ColorDepth::None).then(|| match self.frame.view() {
+            View::Shade | View::Outline if contact != Contact::Nan => self.color(x, y, brightness),
+            _ => class_color(contact),
+        });
+        Some(Ink {
+            contact,
+            brightness,
+            color,
+        })
+    }
+
+    /// Whether shades are shown by how many dots there are, for want of colours.
+    fn dithers(&self) -> bool {
+        let Look { style, depth, .. } = self.look;
+        let view = self.frame.view();
+        (style, depth, view) == (Style::Braille, ColorDepth::None, View::Shade)
+    }
+
+    /// Whether the hit at pixel (x, y) is bright enough for its place in the pattern, or an edge:
+    /// the edges keep dark spheres whole and apart.
+    fn has_dot(&self, x: u32, y: u32) -> bool {
+        let rank = BAYER[y as usize % 4][x as usize % 4];
+        let threshold = (f32::from(rank) + 0.5) / 16.0;
+        self.frame.brightness(x, y) > threshold || self.frame.outline(x, y)
+    }
+
+    /// The colour of the sphere seen at pixel (x, y), in the shade of this brightness.
+    fn color(&mut self, x: u32, y: u32, brightness: f32) -> Rgb {
+        let seen = self.frame.hit(x, y).map_or(0, |hit| hit.body as usize);
+        let base = self.scene.bodies.get(seen).map(|b| color_of(seen, b));
+        let base = base.unwrap_or(Rgb(255, 255, 255));
+        let shades = self.ramps.of(base);
+        let shade = (brightness * shades.len() as f32) as usize;
+        shades[shade.min(shades.len() - 1)]
+    }
+
+    fn ascii(&mut self, x: u32, y: u32) -> Cell {
+        let Some(ink) = self.ink(x, y) else {
+            let miss = self.frame.view() == View::Class;
+            return Cell::plain(if miss { '.' } else { ' ' });
+        };
+        let glyph = match self.frame.view() {
+            _ if ink.contact == Contact::Nan => NO_ANSWER,
+            View::Shade => ramp(self.frame.brightness(x, y)),
+            View::Class => class_glyph(ink.contact),
+            View::Outline => '#',
+        };
+        Cell::of(glyph, ink.color)
+    }
+
+    /// The tutorial's two characters, of which this is one.
+    fn seed(&self, x: u32, y: u32) -> char {
+        match self.frame.contact(x, y) {
+            Contact::Nan => NO_ANSWER,
+            contact if contact.meets() => '+',
+            _ => '-',
+        }
+    }
+
+    fn half(&mut self, x: u32, y: u32) -> Cell {
+        let (top, bottom) = (self.ink(x, y), self.ink(x, y + 1));
+        if is_nan(top) || is_nan(bottom) {
+            return Cell::of(NO_ANSWER, self.nan_color());
+        }
+        let glyph = if self.frame.view() == View::Class {
+            quadrants(quarters(top), quarters(bottom))
+        } else {
+            quadrants(top.map_or(0, |_| 0b11), bottom.map_or(0, |_| 0b11))
+        };
+        let glyph = if self.look.ascii_only {
+            ascii_for_half(glyph)
+        } else {
+            glyph
+        };
+        match (top.and_then(|i| i.color), bottom.and_then(|i| i.color)) {
+            // One glyph shows two colours only as an upper half on a lower one.
+            (Some(fg), Some(bg)) if fg != bg && glyph == '█' => Cell {
+                glyph: '▀',
+                fg: Some(fg),
+                bg: Some(bg),
+            },
+            (upper, lower) => Cell::of(glyph, upper.or(lower)),
+        }
+    }
+
+    fn nan_color(&self) -> Option<Rgb> {
+        (self.look.depth != ColorDepth::None).then(|| class_color(Contact::Nan))
+    }
+
+    fn braille(&mut self, x: u32, y: u32) -> Cell {
+        let mut dots = 0;
+        let mut seen: Option<Ink> = None;
+        for (dx, dy, dot) in DOTS {
+            let Some(ink) = self.ink(x + dx, y + dy) else {
+                continue;
+            };
+            dots |= dot;
+            if seen.is_none_or(|s| rank(&ink) > rank(&s)) {
+                seen = Some(ink);
+            }
+        }
+        let Some(seen) = seen else {
+            return Cell::BLANK;
+        };
+        let glyph = if seen.contact == Contact::Nan {
+            NO_ANSWER
+        } else if self.look.ascii_only {
+            ascii_for_dots(dots)
+        } else {
+            char::from_u32(0x2800 + dots).unwrap_or(' ')
+        };
+        Cell::of(glyph, seen.color)
+    }
+}
+
+fn is_nan(ink: Option<Ink>) -> bool {
+    ink.is_some_and(|i| i.contact == Contact::Nan)
+}
+
+fn ramp(brightness: f32) -> char {
+    let step = (brightness * RAMP.len() as f32) as usize;
+    RAMP[step.min(RAMP.len() - 1)].into()
+}
+
+/// Which of several pixels gives its colour to the cell: what is rare, then what is bright.
+fn rank(ink: &Ink) -> (u8, f32) {
+    let rarity = match ink.contact {
+        Contact::Nan => 3,
+        Contact::Tangent => 2,
+        Contact::TangentBehind => 1,
+        Contact::Miss | Contact::SecantBehind | Contact::Secant | Contact::Inside => 0,
+    };
+    (rarity, ink.brightness)
+}
+
+const fn class_glyph(contact: Contact) -> char {
+    match contact {
+        Contact::Miss => '.',
+        Contact::Nan => NO_ANSWER,
+        Contact::TangentBehind => '~',
+        Contact::SecantBehind => '-',
+        Contact::Tangent => 'o',
+        Contact::Secant => '#',
+        Contact::Inside => '@',
+    }
+}
+
+const fn class_color(contact: Contact) -> Rgb {
+    match contact {
+        Contact::Miss => Rgb(0x60, 0x60, 0x60),
+        Contact::Nan => Rgb(0xd5, 0x5e, 0x00),
+        Contact::TangentBehind => Rgb(0x98, 0x90, 0x28),
+        Contact::SecantBehind => Rgb(0x80, 0x80, 0x80),
+        Contact::Tangent => Rgb(0xf0, 0xe4, 0x42),
+        Contact::Secant => Rgb(0x56, 0xb4, 0xe9),
+        Contact::Inside => Rgb(0x00, 0x9e, 0x73),
+    }
+}
+
+/// In the class view a half block is whole for a secant, its left quarter for a tangent, its right
+/// quarter for what is behind.
+fn quarters(ink: Option<Ink>) -> usize {
+    match ink.map(|i| i.contact) {
+        Some(Contact::Secant | Contact::Inside) => 0b11,
+        Some(Contact::Tangent | Contact::TangentBehind) => 0b10,
+        Some(Contact::SecantBehind) => 0b01,
+        Some(Contact::Miss | Contact::Nan) | None => 0b00,
+    }
+}
+
+/// The block whose upper left and right and lower left and right quarters are set.
+const fn quadrants(top: usize, bottom: usize) -> char {
+    const BLOCKS: [[char; 4]; 4] = [
+        [' ', '▗', '▖', '▄'],
+        ['▝', '▐', '▞', '▟'],
+        ['▘', '▚', '▌', '▙'],
+        ['▀', '▜', '▛', '█'],
+    ];
+    BLOCKS[top & 3][bottom & 3]
+}
+
+const fn ascii_for_half(block: char) -> char {
+    match block {
+        ' ' => ' ',
+        '▀' => '"',
+        '▄' => ',',
+        '█' => '#',
+        '▝' | '▗' | '▐' | '▜' | '▟' => '-',
+        _ => 'o',
+    }
+}
+
+/// Bayer's order in which the dots of a 4 × 4 block light up as it gets brighter.
+const BAYER: [[u8; 4]; 4] = [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
+
+/// Column, row and bit of the dots of a braille cell.
+const DOTS: [(u32, u32, u32); 8] = [
+    (0, 0, 0x01),
+    (0, 1, 0x02),
+    (0, 2, 0x04),
+    (1, 0, 0x08),
+    (1, 1, 0x10),
+    (1, 2, 0x20),
+    (0, 3, 0x40),
+    (1, 3, 0x80),
+];
+
+const fn ascii_for_dots(dots: u32) -> char {
+    match dots.count_ones() {
+        0 => ' ',
+        1 | 2 => '.',
+        3 | 4 => ':',
+        5 | 6 => 'o',
+        _ => '#',
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+    use crate::geometry::Sphere;
+    use crate::method::Method;
+    use crate::scene::{Body, Camera, PixelShape, Projection, Rays, Size};
+
+    /// Before the eye one sphere on another, beside them one behind the eye, all of which exact
+    /// integers touch; nothing else.
+    fn scene() -> Scene {
+        let bodies = [[6.0, 6.0, 20.0], [9.0, 7.0, 12.0], [20.0, 9.0, -9.0]];
+        let body = |center: [f32; 3]| Body {
+            sphere: Sphere::new(center.into(), 5.0).expect("a sphere"),
+            name: None,
+            color: None,
+        };
+        Scene {
+            name: "test".into(),
+            about: None,
+            camera: Camera {
+                projection: Projection::Orthographic {
+                    extent: [26.0, 16.0],
+                },
+                position: Vec3::new(12.5, 7.5, 0.0),
+                look_at: Vec3::new(12.5, 7.5, 1.0),
+                up: Vec3::NEG_Y,
+            },
+            pixels: Some(Size::new(26, 16)),
+            bodies: bodies.map(body).into(),
+            light: None,
+            probes: Vec::new(),
+        }
+    }
+
+    fn frame_of(scene: &Scene, view: View) -> Frame {
+        let mut frame = Frame::new();
+        let rays = Rays::new(&scene.camera, Size::new(26, 16), PixelShape::Own);
+        frame.render(scene, &rays, Method::Textbook, view);
+        frame
+    }
+
+    fn drawn(view: View, style: Style, depth: ColorDepth) -> (Frame, Image) {
+        let scene = scene();
+        let frame = frame_of(&scene, view);
+        let mut image = Image::new();
+        let look = Look {
+            style,
+            depth,
+            ascii_only: false,
+        };
+        image.draw(&frame, &scene, look);
+        (frame, image)
+    }
+
+    fn pixels(frame: &Frame) -> impl Iterator<Item = (u32, u32)> + use<> {
+        let Size { width, height } = frame.size();
+        (0..height).flat_map(move |y| (0..width).map(move |x| (x, y)))
+    }
+
+    fn cell_at(image: &Image, style: Style, x: u32, y: u32) -> Cell {
+        let (col, row) = style.cell_of_pixel(x, y);
+        image.cell(col, row).expect("a cell")
+    }
+
+    #[test]
+    fn a_half_block_says_of_each_of_its_pixels_whether_it_is_hit() {
+        for depth in ColorDepth::ALL {
+            let (frame, image) = drawn(View::Shade, Style::Half, depth);
+            for (x, y) in pixels(&frame) {
+                let cell = cell_at(&image, Style::Half, x, y);
+                let shows = match cell.glyph {
+                    '█' => true,
+                    '▀' => y % 2 == 0 || cell.bg.is_some(),
+                    '▄' => y % 2 == 1,
+                    ' ' => false,
+                    other => panic!("{other}"),
+                };
+                assert_eq!(shows, frame.hit(x, y).is_some(), "{depth:?} ({x}, {y})");
+                assert_eq!(
+                    cell.fg.is_some(),
+                    depth != ColorDepth::None && cell.glyph != ' '
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_half_block_tells_the_classes_of_its_pixels_without_colour() {
+        let (frame, image) = drawn(View::Class, Style::Half, ColorDepth::None);
+        for (x, y) in pixels(&frame) {
+            let glyph = cell_at(&image, Style::Half, x, y).glyph;
+            let of = |contact| {
+                quarters(Some(Ink {
+                    contact,
+                    brightness: 1.0,
+                    color: None,
+                }))
+            };
+            let shown = of(frame.contact(x, y));
+            let fits = |other: usize| match y % 2 {
+                0 => quadrants(shown, other) == glyph,
+                _ => quadrants(other, shown) == glyph,
+            };
+            assert!((0..4).any(fits), "{glyph} at ({x}, {y})");
+        }
+        let mut blocks: Vec<_> = (0..16).map(|i| quadrants(i / 4, i % 4)).collect();
+        blocks.sort_unstable();
+        blocks.dedup();
+        assert_eq!(blocks.len(), 16, "two pairs of classes look the same");
+    }
+
+    #[test]
+    fn braille_has_a_dot_for_each_hit_and_without_colour_for_each_edge() {
+        let dot = |image: &Image, x: u32, y: u32| {
+            let glyph = cell_at(image, Style::Braille, x, y).glyph;
+            let (_, _, bit) = DOTS[DOTS
+                .iter()
+                .position(|&(dx, dy, _)| (dx, dy) == (x % 2, y % 4))
+                .expect("a dot")];
+            glyph != ' ' && (glyph as u32 - 0x2800) & bit != 0
+        };
+        let (frame, image) = drawn(View::Shade, Style::Braille, ColorDepth::Ansi256);
+        for (x, y) in pixels(&frame) {
+            assert_eq!(dot(&image, x, y), frame.hit(x, y).is_some());
+        }
+        let (frame, image) = drawn(View::Shade, Style::Braille, ColorDepth::None);
+        for (x, y) in pixels(&frame) {
+            assert!(!dot(&image, x, y) || frame.hit(x, y).is_some());
+            assert!(dot(&image, x, y) || !frame.outline(x, y));
+        }
+        let (frame, image) = drawn(View::Outline, Style::Braille, ColorDepth::True);
+        for (x, y) in pixels(&frame) {
+            assert_eq!(dot(&image, x, y), frame.outline(x, y));
+        }
+    }
+
+    #[test]
+    fn an_edge_belongs_to_the_nearer_sphere() {
+        let frame = frame_of(&scene(), View::Outline);
+        for (x, y) in pixels(&frame).filter(|&(x, y)| frame.outline(x, y)) {
+            let here = frame.hit(x, y).expect("an edge is of a hit");
+            let around = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)];
+            let beyond = |(x, y)| frame.hit(x, y).is_none_or(|there| there.t > here.t);
+            assert!(around.into_iter().any(beyond), "({x}, {y})");
+        }
+        // Where the two meet on the row through both, the farther one has no edge of its own.
+        assert!(frame.outline(4, 7) && !frame.outline(3, 7));
+    }
+
+    #[test]
+    fn ascii_tells_every_contact_apart() {
+        let (frame, image) = drawn(View::Class, Style::Ascii, ColorDepth::None);
+        let mut seen: Vec<_> = pixels(&frame)
+            .map(|(x, y)| {
+                (
+                    frame.contact(x, y),
+                    cell_at(&image, Style::Ascii, x, y).glyph,
+                )
+            })
+            .collect();
+        seen.sort_unstable();
+        seen.dedup();
+        assert_eq!(
+            seen,
+            [
+                (Contact::Miss, '.'),
+                (Contact::TangentBehind, '~'),
+                (Contact::SecantBehind, '-'),
+                (Contact::Tangent, 'o'),
+                (Contact::Secant, '#')
+            ]
+        );
+    }
+
+    #[test]
+    fn where_a_method_has_no_answer_every_style_says_so() {
+        let mut scene = scene();
+        // B² and 4AC overflow: ∞ − ∞ is not a number.
+        scene.bodies = vec![Body {
+            sphere: Sphere::new(Vec3::new(0.0, 0.0, 1e30), 1.0).expect("a sphere"),
+            name: None,
+            color: None,
+        }];
+        for view in View::ALL {
+            let frame = frame_of(&scene, view);
+            for style in Style::ALL {
+                let mut image = Image::new();
+                let look = Look {
+                    style,
+                    ..Look::default()
+                };
+                image.draw(&frame, &scene, look);
+                assert!(image.cells.iter().all(|cell| cell.glyph == NO_ANSWER));
+            }
+        }
+    }
+}

@@ -1,0 +1,20 @@
+//! The view: rays → nearest hits → shade → glyphs. No terminal in it.
+//!
+//! A [`Frame`] holds what is known of each pixel; an [`Image`] holds the cells that show it in a
+//! [`Style`]. Both are kept and filled anew from frame to frame.
+
+mod bounds;
+mod color;
+mod frame;
+mod image;
+mod ramp;
+mod shade;
+mod style;
+mod view;
+
+pub use color::{AnsiColor, ColorDepth, color_of};
+pub use frame::{Contact, Frame, Hit};
+pub use image::{Cell, Image, Look};
+pub use shade::headlight;
+pub use style::{CELL_ASPECT, Style, fit};
+pub use view::View;

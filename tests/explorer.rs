@@ -1,0 +1,513 @@
+//! The explorer as a person drives it: keys in, screens out, no terminal.
+
+use std::fs;
+use std::sync::OnceLock;
+
+use proptest::prelude::*;
+use ratatui::buffer::Buffer;
+use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
+use ratatui::layout::Rect;
+use rayscope::explorer::action::{Action, markdown};
+use rayscope::explorer::{Explorer, Options};
+use rayscope::method::Method;
+use rayscope::render::{ColorDepth, Style};
+use rayscope::scene::Scene;
+
+/// An explorer with a screen.
+struct Person {
+    explorer: Explorer,
+    size: (u16, u16),
+}
+
+impl Person {
+    fn opens(name: &str, cols: u16, rows: u16) -> Self {
+        Self::with(name, cols, rows, textbook())
+    }
+
+    fn with(name: &str, cols: u16, rows: u16, options: Options) -> Self {
+        leave_the_repository();
+        let (scene, source) = Scene::open(name).expect("a scene");
+        let mut person = Self {
+            explorer: Explorer::new(scene, &source, options),
+            size: (cols, rows),
+        };
+        person.screen();
+        person
+    }
+
+    /// Presses keys by name, as in `right tab X ctrl-s`, and looks at the screen after each.
+    fn presses(&mut self, keys: &str) -> &mut Self {
+        for key in keys.split_whitespace() {
+            self.explorer.update(&key_event(key));
+            self.screen();
+        }
+        self
+    }
+
+    fn types(&mut self, text: &str) -> &mut Self {
+        for c in text.chars() {
+            let key = KeyEvent::new(KeyCode::Char(c), KeyModifiers::NONE);
+            self.explorer.update(&Event::Key(key));
+        }
+        self
+    }
+
+    /// Types a command after `:`.
+    fn commands(&mut self, line: &str) -> &mut Self {
+        self.presses("esc :").types(line).presses("enter")
+    }
+
+    /// The characters on the screen.
+    fn screen(&mut self) -> String {
+        let (cols, rows) = self.size;
+        let mut buffer = Buffer::empty(Rect::new(0, 0, cols, rows));
+        self.explorer.prepare(cols, rows);
+        self.explorer.draw(&mut buffer);
+        let line = |y| -> String { (0..cols).map(|x| buffer[(x, y)].symbol()).collect() };
+        (0..rows)
+            .map(|y| line(y).trim_end().to_owned() + "\n")
+            .collect()
+    }
+
+    fn shows(&mut self, text: &str) {
+        let screen = self.screen();
+        assert!(screen.contains(text), "no “{text}” on\n{screen}");
+    }
+}
+
+/// A walk over random keys may come to save a file: it does so where nobody minds.
+fn leave_the_repository() {
+    static ELSEWHERE: OnceLock<tempfile::TempDir> = OnceLock::new();
+    ELSEWHERE.get_or_init(|| {
+        let folder = tempfile::tempdir().expect("a folder");
+        std::env::set_current_dir(folder.path()).expect("a folder to work in");
+        folder
+    });
+}
+
+fn textbook() -> Options {
+    Options {
+        method: Method::Textbook,
+        ..Options::default()
+    }
+}
+
+fn key_event(name: &str) -> Event {
+    let mut modifiers = KeyModifiers::NONE;
+    let mut rest = name;
+    if let Some(after) = rest.strip_prefix("ctrl-") {
+        (modifiers, rest) = (KeyModifiers::CONTROL, after);
+    } else if let Some(after) = rest.strip_prefix("shift-") {
+        (modifiers, rest) = (KeyModifiers::SHIFT, after);
+    }
+    let code = match rest {
+        "left" => KeyCode::Left,
+        "right" => KeyCode::Right,
+        "up" => KeyCode::Up,
+        "down" => KeyCode::Down,
+        "home" => KeyCode::Home,
+        "pageup" => KeyCode::PageUp,
+        "pagedown" => KeyCode::PageDown,
+        "tab" => KeyCode::Tab,
+        "backtab" => KeyCode::BackTab,
+        "enter" => KeyCode::Enter,
+        "esc" => KeyCode::Esc,
+        "space" => KeyCode::Char(' '),
+        "backspace" => KeyCode::Backspace,
+        "delete" => KeyCode::Delete,
+        "f1" => KeyCode::F(1),
+        one => KeyCode::Char(one.chars().next().expect("a key")),
+    };
+    Event::Key(KeyEvent::new(code, modifiers))
+}
+
+#[test]
+fn the_tutorials_pixel_shows_its_numbers() {
+    let mut person = Person::opens("seed", 80, 24);
+    for text in [
+        "pixel (20, 20)",
+        "A    d·d            1",
+        "B    2 d·(p0−c)    −40",
+        "C    |p0−c|² − r²   300",
+        "Δ    B² − 4AC       400",
+        "secant",
+        "near (−B − √Δ) / 2A  10",
+        "far  (−B + √Δ) / 2A  30",
+    ] {
+        person.shows(text);
+    }
+}
+
+#[test]
+fn screens_at_80_by_24_and_160_by_50() {
+    for (cols, rows) in [(80, 24), (160, 50)] {
+        for scene in ["seed", "trio"] {
+            let screen = Person::opens(scene, cols, rows).screen();
+            insta::assert_snapshot!(format!("{scene}_{cols}x{rows}"), screen);
+            let steps = Person::opens(scene, cols, rows)
+                .presses("enter . . . . . . . .")
+                .screen();
+            insta::assert_snapshot!(format!("{scene}_steps_{cols}x{rows}"), steps);
+        }
+    }
+    insta::assert_snapshot!(
+        "help_80x24",
+        Person::opens("seed", 80, 24).presses("?").screen()
+    );
+    insta::assert_snapshot!(
+        "form_80x24",
+        Person::opens("trio", 80, 24).presses("=").screen()
+    );
+    insta::assert_snapshot!("narrow_40x24", Person::opens("seed", 40, 24).screen());
+    insta::assert_snapshot!("strip_30x10", Person::opens("seed", 30, 10).screen());
+    insta::assert_snapshot!("small_19x5", Person::opens("seed", 19, 5).screen());
+}
+
+#[test]
+fn a_screen_in_ascii_has_no_byte_above_127() {
+    let options = Options {
+        glyphs: rayscope::explain::Glyphs::Ascii,
+        depth: ColorDepth::None,
+        ..textbook()
+    };
+    for scene in ["seed", "trio"] {
+        let mut person = Person::with(scene, 80, 24, options);
+        for keys in ["", "?", "esc =", "esc :", "esc b", "b", "b v", "v"] {
+            let screen = person.presses(keys).screen();
+            assert!(screen.is_ascii(), "after {keys}:\n{screen}");
+        }
+    }
+}
+
+#[test]
+fn the_cursor_moves_and_stops_at_the_edge() {
+    let mut person = Person::opens("seed", 80, 24);
+    person.presses("left k shift-down L");
+    assert_eq!(person.explorer.cursor(), (27, 27));
+    person.presses("H H H H H");
+    assert_eq!(person.explorer.cursor(), (0, 27));
+    person.commands("cursor 26 28").shows("Δ = 0");
+    assert_eq!(person.explorer.cursor(), (26, 28));
+    person
+        .commands("cursor 40 0")
+        .shows("expected a pixel of 40×40");
+}
+
+#[test]
+fn snapping_finds_the_nearest_tangent_pixel() {
+    let mut person = Person::opens("seed", 80, 24);
+    person.commands("cursor 33 20").presses("t");
+    assert_eq!(person.explorer.cursor(), (30, 20));
+    person.shows("tangent");
+}
+
+#[test]
+fn making_a_pixel_tangent_sets_the_radius_for_which_the_discriminant_is_zero() {
+    let mut person = Person::opens("seed", 80, 24);
+    person.commands("cursor 23 24").presses("T");
+    assert_eq!(person.explorer.scene().bodies[0].sphere.radius, 5.0);
+    person.shows("Δ = 0");
+}
+
+#[test]
+fn every_change_can_be_undone_and_done_again() {
+    let mut person = Person::opens("trio", 80, 24);
+    let before = person.explorer.scene().clone();
+    person.presses("x Y z g G w a s d W A e E + - c tab x i o delete ] T");
+    person.commands("set radius 0.75");
+    let after = person.explorer.scene().clone();
+    assert_ne!(before, after);
+    for _ in 0..40 {
+        person.presses("u");
+    }
+    assert_eq!(*person.explorer.scene(), before);
+    assert!(!person.explorer.is_changed());
+    for _ in 0..40 {
+        person.presses("U");
+    }
+    assert_eq!(*person.explorer.scene(), after);
+    person.presses("R");
+    assert_eq!(*person.explorer.scene(), before);
+    person.presses("u");
+    assert_eq!(*person.explorer.scene(), after);
+}
+
+#[test]
+fn a_typed_number_is_held_to_what_a_scene_file_may_say() {
+    let mut person = Person::opens("seed", 80, 24);
+    person
+        .presses("= down down down")
+        .types("-3")
+        .presses("enter");
+    person.shows("radius is -3: expected a radius of zero or more");
+    assert_eq!(person.explorer.scene().bodies[0].sphere.radius, 10.0);
+    person.presses("ctrl-u").types("0.1").presses("enter esc");
+    assert_eq!(person.explorer.scene().bodies[0].sphere.radius, 0.1);
+    person
+        .commands("set up.z 1e39")
+        .shows("expected a number within");
+    person.commands("set look_at.z 0").shows("look_at");
+    person.commands("set nonsense 1").shows("no key");
+}
+
+#[test]
+fn quitting_asks_only_if_something_would_be_lost() {
+    let mut person = Person::opens("seed", 80, 24);
+    person.presses("right q");
+    assert_eq!(person.explorer.ended(), Some(0));
+
+    let mut person = Person::opens("seed", 80, 24);
+    person.presses("x q").shows("Unsaved changes");
+    assert_eq!(person.explorer.ended(), None);
+    person.presses("esc u q");
+    assert_eq!(person.explorer.ended(), Some(0));
+
+    let mut person = Person::opens("seed", 80, 24);
+    person.presses("x q q");
+    assert_eq!(person.explorer.ended(), Some(0));
+    let mut person = Person::opens("seed", 80, 24);
+    person.presses("ctrl-c");
+    assert_eq!(person.explorer.ended(), Some(130));
+}
+
+#[test]
+fn saving_never_overwrites_what_was_not_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let name = path.to_str().unwrap();
+    let mut person = Person::opens("seed", 160, 24);
+    person.presses("x").commands(&format!("save-as {name}"));
+    person.shows("Saved");
+    assert!(!person.explorer.is_changed());
+    let (saved, _) = Scene::open(name).unwrap();
+    assert_eq!(saved, *person.explorer.scene());
+
+    fs::write(&path, "somebody else's").unwrap();
+    person.presses("x ctrl-s").shows("changed by somebody else");
+    person.presses("esc");
+    assert_eq!(fs::read_to_string(&path).unwrap(), "somebody else's");
+    person.presses("ctrl-s o").shows("Saved");
+    assert_eq!(Scene::open(name).unwrap().0, *person.explorer.scene());
+
+    let mut other = Person::opens("trio", 160, 24);
+    other
+        .commands(&format!("save-as {name}"))
+        .shows("exists already");
+    other.presses("esc");
+    assert_eq!(Scene::open(name).unwrap().0, *person.explorer.scene());
+}
+
+#[test]
+fn opening_asks_before_changes_are_lost_and_says_what_is_wrong() {
+    let mut person = Person::opens("seed", 80, 24);
+    person
+        .presses("x")
+        .commands("open trio")
+        .shows("Unsaved changes");
+    person.presses("esc");
+    assert_eq!(person.explorer.scene().bodies.len(), 1);
+    person.commands("open trio").presses("o");
+    assert_eq!(person.explorer.scene().bodies.len(), 3);
+    person
+        .commands("open no-such-scene.toml")
+        .shows("no-such-scene.toml");
+    assert_eq!(person.explorer.scene().bodies.len(), 3);
+}
+
+#[test]
+fn commands_complete_and_say_what_they_expected() {
+    let mut person = Person::opens("seed", 80, 24);
+    person.presses(":").types("cursor-l").presses("tab enter");
+    assert_eq!(person.explorer.cursor(), (19, 20));
+    person.presses(":").types("open tr").presses("tab enter");
+    assert_eq!(person.explorer.scene().bodies.len(), 3);
+    person.commands("method nonsense").shows("expected one of");
+    person
+        .presses("esc")
+        .commands("frobnicate")
+        .shows("no command");
+}
+
+#[test]
+fn a_paste_is_no_burst_of_commands() {
+    let mut person = Person::opens("seed", 80, 24);
+    let before = person.explorer.scene().clone();
+    person.explorer.update(&Event::Paste("xxxx q\nq".into()));
+    assert_eq!(*person.explorer.scene(), before);
+    assert_eq!(person.explorer.ended(), None);
+    person.presses(":");
+    person.explorer.update(&Event::Paste("cursor 1 2".into()));
+    person.presses("enter");
+    assert_eq!(person.explorer.cursor(), (1, 2));
+}
+
+#[test]
+fn all_spheres_of_a_line_are_listed_and_one_can_be_chosen() {
+    let mut person = Person::opens("trio", 80, 24);
+    person.presses("n").shows("spheres on this line");
+    let shown = |p: &Person| p.explorer.reading().unwrap().subject.as_ref().unwrap().body;
+    let first = shown(&person);
+    person.presses("space");
+    let second = shown(&person);
+    assert_ne!(first, second);
+    person.presses("left right");
+    assert_eq!(
+        shown(&person),
+        first,
+        "moving on shows the nearest hit again"
+    );
+}
+
+#[test]
+fn a_person_walks_through_the_derivation_and_back() {
+    let mut person = Person::opens("seed", 80, 24);
+    let before = person.screen();
+    person.presses("enter").shows("step 1 of");
+    let first = person.screen();
+    for (step, result) in [("A", "= 1"), ("B", "= −40"), ("C", "= 300"), ("Δ", "= 400")] {
+        person.commands(&format!("step {step}")).shows(result);
+    }
+    person.presses("> ,").shows("shade");
+    person.presses("<");
+    assert_eq!(person.screen(), first, "stepping back restores the screen");
+    person.presses("1");
+    assert_eq!(person.screen(), before);
+}
+
+#[test]
+fn moving_on_keeps_the_step_and_marks_what_changed() {
+    let mut person = Person::opens("seed", 80, 24);
+    person.commands("step C").presses("right");
+    person.shows(": C");
+    person.shows("= 301");
+    person.shows("[C*]");
+    person.shows(" A ");
+}
+
+#[test]
+fn predicting_hides_the_answer_until_it_is_given() {
+    let mut person = Person::opens("seed", 80, 24);
+    person.commands("step Δ").presses("P");
+    person.shows("Is Δ negative, zero or positive?");
+    assert!(!person.screen().contains("= 400"));
+    person.presses("-").shows("It is positive");
+    person.shows("= 400");
+    person
+        .commands("step verdict")
+        .presses("2")
+        .shows("Yes, two. 1 of 2 foreseen.");
+    person.presses("enter").shows("Which root is seen?");
+    person.presses("enter").shows("hit: the near point is seen");
+}
+
+#[test]
+fn the_board_shows_one_step_and_hides_its_answer() {
+    let mut person = Person::opens("seed", 80, 24);
+    person.commands("step C").presses("O");
+    let hidden = person.screen();
+    let revealed = person.presses("enter").screen();
+    assert_ne!(hidden, revealed);
+    insta::assert_snapshot!("board_hidden_80x24", hidden);
+    insta::assert_snapshot!("board_revealed_80x24", revealed);
+    person.presses("O").shows("view 40×40");
+}
+
+#[test]
+fn the_guide_lists_the_keys_that_there_are() {
+    hold_to_docs("docs/guide.md", "keys", &markdown());
+}
+
+#[test]
+fn the_readme_shows_the_real_screen() {
+    let options = Options {
+        style: Style::Ascii,
+        ..Options::default()
+    };
+    let screen = Person::with("trio", 80, 24, options).screen();
+    hold_to_docs("README.md", "screen", &format!("```text\n{screen}```\n"));
+}
+
+/// What stands between the marks `NAME` and `end of NAME` of a page is `text`.
+fn hold_to_docs(page: &str, name: &str, text: &str) {
+    let path = format!("{}/{page}", env!("CARGO_MANIFEST_DIR"));
+    let whole = fs::read_to_string(&path).expect("a page");
+    let marks = [
+        format!("<!-- {name} -->\n"),
+        format!("<!-- end of {name} -->"),
+    ];
+    let (before, rest) = whole.split_once(&marks[0]).expect("the first mark");
+    let (found, after) = rest.split_once(&marks[1]).expect("the second mark");
+    if std::env::var_os("RAYSCOPE_UPDATE_DOCS").is_some() {
+        let fresh = format!("{before}{}{text}{}{after}", marks[0], marks[1]);
+        fs::write(path, fresh).expect("the page written");
+    } else {
+        assert_eq!(
+            found, text,
+            "RAYSCOPE_UPDATE_DOCS=1 cargo test rewrites {page}"
+        );
+    }
+}
+
+/// What a person may do to an explorer.
+#[derive(Debug, Clone)]
+enum Deed {
+    Press(usize),
+    Type(char),
+    Special(&'static str),
+    Resize(u16, u16),
+    Paste(String),
+}
+
+fn deed() -> impl Strategy<Value = Deed> {
+    // Keys that write files or end the program are left out: the one would litter, the other end
+    // the walk early. They have tests of their own.
+    let keys = 0..Action::ALL.len();
+    prop_oneof![
+        8 => keys.prop_map(Deed::Press),
+        2 => any::<char>().prop_map(Deed::Type),
+        2 => prop::sample::select(vec!["enter", "esc", "tab", "backspace", "up", "down"])
+            .prop_map(Deed::Special),
+        1 => (0..220_u16, 0..80_u16).prop_map(|(w, h)| Deed::Resize(w, h)),
+        1 => ".{0,12}".prop_map(Deed::Paste),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    #[test]
+    fn any_keys_at_any_size_never_panic(
+        scene in prop::sample::select(vec!["seed", "trio"]),
+        deeds in prop::collection::vec(deed(), 1..120),
+    ) {
+        let mut person = Person::opens(scene, 80, 24);
+        for deed in deeds {
+            match deed {
+                Deed::Press(at) => {
+                    let action = Action::ALL[at];
+                    if let (false, Some(key)) = (writes(action), action.keys().first()) {
+                        person.presses(key);
+                    }
+                }
+                Deed::Type(c) => {
+                    person.types(&c.to_string());
+                }
+                Deed::Special(key) => {
+                    person.presses(key);
+                }
+                Deed::Resize(w, h) => person.size = (w, h),
+                Deed::Paste(text) => {
+                    person.explorer.update(&Event::Paste(text));
+                }
+            }
+            person.screen();
+            let scene = person.explorer.scene();
+            prop_assert!(scene.camera.check().is_ok());
+            prop_assert!(scene.bodies.iter().all(|b| b.sphere.radius >= 0.0));
+        }
+    }
+}
+
+fn writes(action: Action) -> bool {
+    matches!(action, Action::Save | Action::SaveAs | Action::Quit)
+}

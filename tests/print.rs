@@ -1,0 +1,139 @@
+//! `rayscope print`, run as a program.
+
+use std::process::{Command, Output, Stdio};
+
+fn rayscope(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_rayscope"));
+    command.args(arguments).env_remove("NO_COLOR");
+    command
+}
+
+fn run(arguments: &[&str]) -> Output {
+    rayscope(arguments).output().expect("the program runs")
+}
+
+fn text(arguments: &[&str]) -> String {
+    let output = run(arguments);
+    assert!(output.status.success(), "{output:?}");
+    assert!(output.stderr.is_empty(), "{output:?}");
+    String::from_utf8(output.stdout).expect("text")
+}
+
+#[test]
+fn the_seed_is_the_tutorials_text() {
+    let expected: String = (0..40_i32)
+        .flat_map(|y| {
+            let row = (0..40_i32).map(move |x| {
+                if (x - 20).pow(2) + (y - 20).pow(2) <= 100 {
+                    "++"
+                } else {
+                    "--"
+                }
+            });
+            row.chain(["\n"])
+        })
+        .collect();
+    for more in [&[][..], &["--color", "true"], &["--size", "40x40"]] {
+        let arguments = [&["print", "seed", "--style", "seed"], more].concat();
+        assert_eq!(text(&arguments), expected, "{more:?}");
+    }
+    assert_eq!(expected.matches("++").count(), 317);
+}
+
+#[test]
+fn a_pipe_gets_plain_ascii_of_80_by_24() {
+    let text = text(&["print", "trio"]);
+    assert!(text.is_ascii() && !text.contains('\x1b'));
+    assert_eq!(text.lines().count(), 24);
+    assert!(text.lines().all(|line| line.len() == 80));
+}
+
+#[test]
+fn a_size_is_in_pixels() {
+    for (style, cells) in [
+        ("ascii", (30, 20)),
+        ("seed", (60, 20)),
+        ("half", (30, 10)),
+        ("braille", (15, 5)),
+    ] {
+        let text = text(&["print", "trio", "--style", style, "--size", "30x20"]);
+        let widest = text.lines().map(|line| line.chars().count()).max();
+        assert_eq!(
+            (widest, text.lines().count()),
+            (Some(cells.0), cells.1),
+            "{style}"
+        );
+    }
+}
+
+#[test]
+fn the_class_view_of_the_seed_has_its_twelve_tangents() {
+    let text = text(&["print", "seed", "--style", "ascii", "--view", "class"]);
+    assert_eq!(text.matches('o').count(), 12);
+    assert_eq!(text.matches('#').count(), 305);
+    assert_eq!(text.matches('.').count(), 1600 - 317);
+}
+
+#[test]
+fn colours_are_as_asked_even_in_a_pipe() {
+    let with = |color| text(&["print", "trio", "--color", color]);
+    assert!(with("true").contains("\x1b[38;2;"));
+    assert!(with("256").contains("\x1b[38;5;") && !with("256").contains("8;2;"));
+    assert!(with("16").contains("\x1b[9") && !with("16").contains("8;"));
+    assert!(!with("never").contains('\x1b'));
+    for line in with("256").lines().filter(|line| line.contains('\x1b')) {
+        assert!(line.ends_with("\x1b[0m"), "{line:?}");
+    }
+}
+
+#[test]
+fn a_pixel_is_told_in_the_words_of_the_panel() {
+    let text = text(&["print", "seed", "--pixel", "20,20"]);
+    for part in [
+        "ray at (20, 20)",
+        "20, 20, 0",
+        "-40",
+        "300",
+        "400",
+        "secant",
+    ] {
+        let plain = text.replace('−', "-");
+        assert!(plain.contains(part), "{part} in {text}");
+    }
+}
+
+#[test]
+fn what_is_asked_wrongly_is_told_in_a_sentence() {
+    for (arguments, status, sentence) in [
+        (&["print"][..], 2, "<SCENE>"),
+        (&["print", "seed", "--style", "hlaf"], 2, "half"),
+        (&["print", "seed", "--size", "0x9"], 2, "from 1 to 4096"),
+        (&["print", "seed", "--aspect", "NaN"], 2, "0.5 to 4"),
+        (&["print", "seed", "--pixel", "1"], 2, "20,20"),
+        (
+            &["print", "seed", "--pixel", "40,0"],
+            2,
+            "from 0,0 to 39,39",
+        ),
+        (&["print", "no-such-scene"], 1, "no-such-scene"),
+    ] {
+        let output = run(arguments);
+        assert_eq!(output.status.code(), Some(status), "{output:?}");
+        assert!(output.stdout.is_empty());
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(told.contains(sentence), "{told}");
+    }
+}
+
+#[test]
+fn a_reader_that_leaves_ends_it_quietly() {
+    let mut child = rayscope(&["print", "seed", "--size", "4000x2000", "--style", "ascii"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the program runs");
+    drop(child.stdout.take());
+    let output = child.wait_with_output().expect("the program ends");
+    assert_eq!(output.status.code(), Some(0));
+    assert!(output.stderr.is_empty(), "{output:?}");
+}

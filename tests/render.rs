@@ -1,0 +1,379 @@
+//! The view: what is seen does not depend on what was left out, and is shown as it is.
+
+use glam::Vec3;
+use proptest::prelude::*;
+use rayscope::geometry::Sphere;
+use rayscope::method::Method;
+use rayscope::render::{CELL_ASPECT, ColorDepth, Contact, Frame, Image, Look, Style, View, fit};
+use rayscope::scene::{Body, Camera, Light, PixelShape, Projection, Rays, Scene, Size};
+
+fn body(center: [f32; 3], radius: f32) -> Body {
+    Body {
+        sphere: Sphere::new(center.into(), radius).expect("a sphere"),
+        name: None,
+        color: None,
+    }
+}
+
+fn scene(camera: Camera, bodies: Vec<Body>) -> Scene {
+    Scene {
+        name: "test".into(),
+        about: None,
+        camera,
+        pixels: None,
+        bodies,
+        light: None,
+        probes: Vec::new(),
+    }
+}
+
+/// The tutorial's screen.
+fn seed() -> Scene {
+    let camera = Camera {
+        projection: Projection::Orthographic {
+            extent: [40.0, 40.0],
+        },
+        position: Vec3::new(19.5, 19.5, 0.0),
+        look_at: Vec3::new(19.5, 19.5, 20.0),
+        up: Vec3::NEG_Y,
+    };
+    Scene {
+        pixels: Some(Size::new(40, 40)),
+        ..scene(camera, vec![body([20.0; 3], 10.0)])
+    }
+}
+
+fn looking_down_z(position: [f32; 3]) -> Camera {
+    let position = Vec3::from(position);
+    Camera {
+        projection: Projection::Perspective {
+            field_of_view: 45.0,
+        },
+        position,
+        look_at: position - Vec3::Z,
+        up: Vec3::Y,
+    }
+}
+
+fn rendered(scene: &Scene, size: Size, method: Method, view: View) -> Frame {
+    let shape = scene
+        .pixels
+        .map_or(PixelShape::Aspect(1.0), |_| PixelShape::Own);
+    let mut frame = Frame::new();
+    frame.render(scene, &Rays::new(&scene.camera, size, shape), method, view);
+    frame
+}
+
+fn drawn(scene: &Scene, cells: (u32, u32), view: View, look: Look) -> Image {
+    let (size, shape) = fit(scene, look.style, cells.0, cells.1, CELL_ASPECT);
+    let mut frame = Frame::new();
+    let rays = Rays::new(&scene.camera, size, shape);
+    frame.render(scene, &rays, Method::default(), view.shown_in(look.style));
+    let mut image = Image::new();
+    image.draw(&frame, scene, look);
+    image
+}
+
+fn text(image: &Image) -> String {
+    image
+        .lines()
+        .flat_map(|line| line.iter().map(|c| c.glyph).chain(['\n']))
+        .collect()
+}
+
+/// The tutorial's rule, in integers: Δ = 4·(100 − (x−20)² − (y−20)²) is not below 0.
+fn tutorials_text() -> String {
+    let mut text = String::new();
+    for y in -20_i32..20 {
+        for x in -20_i32..20 {
+            text += if x * x + y * y <= 100 { "++" } else { "--" };
+        }
+        text.push('\n');
+    }
+    text
+}
+
+#[test]
+fn the_seed_is_the_tutorials_text() {
+    let look = Look {
+        style: Style::Seed,
+        ..Look::default()
+    };
+    let text = text(&drawn(&seed(), (80, 24), View::Shade, look));
+    assert_eq!(text, tutorials_text());
+    assert_eq!(text.lines().count(), 40);
+    assert!(text.lines().all(|line| line.len() == 80));
+    assert_eq!(text.matches('+').count(), 2 * 317);
+}
+
+fn count(frame: &Frame, what: impl Fn(Contact) -> bool) -> usize {
+    let Size { width, height } = frame.size();
+    (0..height)
+        .flat_map(|y| (0..width).map(move |x| (x, y)))
+        .filter(|&(x, y)| what(frame.contact(x, y)))
+        .count()
+}
+
+#[test]
+fn the_seed_has_317_hits_of_which_12_are_tangents() {
+    for method in Method::ALL {
+        let frame = rendered(&seed(), Size::new(40, 40), method, View::Class);
+        assert_eq!(count(&frame, Contact::meets), 317, "{method}");
+        assert_eq!(count(&frame, |c| c == Contact::Tangent), 12, "{method}");
+    }
+    let hit = rendered(&seed(), Size::new(40, 40), Method::Textbook, View::Shade)
+        .hit(20, 20)
+        .expect("a hit");
+    assert_eq!((hit.body, hit.t), (0, 10.0));
+}
+
+#[test]
+fn a_sphere_behind_the_eye_is_told_apart_and_not_seen() {
+    let mut behind = seed();
+    behind.bodies[0].sphere.center.z = -20.0;
+    let size = Size::new(40, 40);
+    let frame = rendered(&behind, size, Method::Textbook, View::Class);
+    assert_eq!(count(&frame, |c| c == Contact::SecantBehind), 305);
+    assert_eq!(count(&frame, |c| c == Contact::TangentBehind), 12);
+    assert_eq!(frame.hit(20, 20), None);
+    // The tutorial's boolean cannot tell.
+    let look = Look {
+        style: Style::Seed,
+        ..Look::default()
+    };
+    assert_eq!(
+        text(&drawn(&behind, (80, 40), View::Shade, look)),
+        tutorials_text()
+    );
+    let frame = rendered(&behind, size, Method::Textbook, View::Shade);
+    assert_eq!(count(&frame, |c| c != Contact::Miss), 0);
+}
+
+#[test]
+fn of_two_spheres_at_equal_t_the_first_listed_wins() {
+    let twin = || body([0.0, 0.0, -5.0], 1.0);
+    let scene = scene(looking_down_z([0.0; 3]), vec![twin(), twin()]);
+    let frame = rendered(&scene, Size::new(21, 21), Method::default(), View::Shade);
+    assert_eq!(frame.hit(10, 10).map(|hit| hit.body), Some(0));
+}
+
+#[test]
+fn a_sphere_is_round_in_every_style() {
+    for projection in [
+        Projection::Perspective {
+            field_of_view: 45.0,
+        },
+        Projection::Orthographic { extent: [8.0, 8.0] },
+    ] {
+        for style in Style::ALL {
+            for cell_aspect in [1.0, 1.7, 2.0, 2.6] {
+                let camera = Camera {
+                    projection,
+                    ..looking_down_z([0.0; 3])
+                };
+                let scene = scene(camera, vec![body([0.0, 0.0, -10.0], 3.0)]);
+                let (size, shape) = fit(&scene, style, 240, 100, cell_aspect);
+                let mut frame = Frame::new();
+                let rays = Rays::new(&scene.camera, size, shape);
+                frame.render(&scene, &rays, Method::default(), View::Shade);
+                let seen = |x: u32, y: u32| frame.hit(x, y).is_some();
+                let width = (0..size.width)
+                    .filter(|&x| seen(x, size.height / 2))
+                    .count();
+                let height = (0..size.height)
+                    .filter(|&y| seen(size.width / 2, y))
+                    .count();
+                let aspect = style.pixel_aspect(cell_aspect);
+                let off = width as f64 - height as f64 * aspect;
+                // A pixel each way may or may not be hit.
+                assert!(
+                    off.abs() <= 1.0 + aspect && width > 20,
+                    "{style:?} {cell_aspect}: {width} by {height}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn any_size_is_drawn_in_any_style() {
+    let mut frame = Frame::new();
+    let mut image = Image::new();
+    let scenes = [
+        seed(),
+        scene(looking_down_z([0.0; 3]), vec![]),
+        scene(
+            looking_down_z([0.0; 3]),
+            vec![body([0.0, 0.0, -3.0], 1.0), body([0.5, 0.0, -2.0], 0.0)],
+        ),
+    ];
+    for scene in &scenes {
+        for style in Style::ALL {
+            for cells in [
+                (0, 0),
+                (0, 9),
+                (9, 0),
+                (1, 1),
+                (20, 6),
+                (80, 24),
+                (500, 200),
+            ] {
+                for view in View::ALL {
+                    for depth in ColorDepth::ALL {
+                        let (size, shape) = fit(scene, style, cells.0, cells.1, CELL_ASPECT);
+                        if size.area() > 20_000 && depth != ColorDepth::Ansi256 {
+                            continue;
+                        }
+                        let rays = Rays::new(&scene.camera, size, shape);
+                        frame.render(scene, &rays, Method::default(), view);
+                        let look = Look {
+                            style,
+                            depth,
+                            ascii_only: depth == ColorDepth::None,
+                        };
+                        image.draw(&frame, scene, look);
+                        assert_eq!(image.cells.len(), (image.cols * image.rows) as usize);
+                        assert_eq!((image.cols, image.rows), style.cells_of(size));
+                        if look.ascii_only {
+                            assert!(image.cells.iter().all(|c| c.glyph.is_ascii()));
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// A vector that has a length.
+fn any_direction() -> impl Strategy<Value = Vec3> {
+    prop::array::uniform3(-1.0_f32..1.0)
+        .prop_map(Vec3::from)
+        .prop_filter("zero", |v| v.length() > 0.01)
+}
+
+/// Spheres about the point `eye`, from around it to far away; some just touch it, some hold it.
+fn any_body(eye: Vec3) -> impl Strategy<Value = Body> {
+    (any_direction(), -3_i32..14, 0_u8..6).prop_map(move |(offset, power, kind)| {
+        let offset = offset * 2_f32.powi(power);
+        let radius = match kind {
+            0 => offset.length(),
+            1 => offset.length() * (1.0 - 1e-6),
+            2 => offset.length() * 1.5,
+            3 => offset.length() * 0.1,
+            4 => 0.0,
+            _ => 1.0,
+        };
+        body((eye + offset).to_array(), radius)
+    })
+}
+
+/// An eye that has the first sphere in the picture, before it or behind it, or anything else.
+fn any_camera(eye: Vec3, bodies: &[Body]) -> impl Strategy<Value = Camera> + use<> {
+    let target = bodies[0].sphere;
+    let offset = target.center - eye;
+    let size = (target.radius / offset.length()).clamp(1e-4, 1.0);
+    let towards = prop_oneof![
+        Just(offset),
+        any_direction().prop_map(move |v| target.radius * v - offset),
+        any_direction().prop_map(move |v| offset + target.radius * v),
+        any_direction(),
+    ];
+    let zoom = 0.5_f32..8.0;
+    (any::<bool>(), towards, zoom).prop_filter_map(
+        "looks nowhere",
+        move |(perspective, v, zoom)| {
+            let projection = if perspective {
+                let field_of_view = (zoom * size).to_degrees().min(170.0);
+                Projection::Perspective { field_of_view }
+            } else {
+                let extent = (zoom * target.radius).max(0.1);
+                Projection::Orthographic {
+                    extent: [extent, extent],
+                }
+            };
+            let camera = Camera {
+                projection,
+                position: eye,
+                look_at: eye + v,
+                up: Vec3::Y,
+            };
+            camera.check().is_ok().then_some(camera)
+        },
+    )
+}
+
+fn any_scene() -> impl Strategy<Value = Scene> {
+    let eye = prop_oneof![Just(Vec3::ZERO), Just(Vec3::new(1000.0, -20.0, 3.0))];
+    let light = prop_oneof![
+        Just(None),
+        Just(Some(Light {
+            position: Vec3::new(3.0, 5.0, 1.0)
+        }))
+    ];
+    eye.prop_flat_map(|eye| (Just(eye), prop::collection::vec(any_body(eye), 1..6)))
+        .prop_flat_map(|(eye, mut bodies)| {
+            bodies.push(bodies[0].clone());
+            (any_camera(eye, &bodies), Just(bodies))
+        })
+        .prop_flat_map(move |(camera, bodies)| {
+            let light = light.clone();
+            light.prop_map(move |light| Scene {
+                light,
+                ..scene(camera, bodies.clone())
+            })
+        })
+}
+
+fn assert_same(scene: &Scene, size: Size, shape: PixelShape) {
+    let rays = Rays::new(&scene.camera, size, shape);
+    let [mut some, mut all] = [Frame::new(), Frame::new()];
+    for method in Method::ALL {
+        for view in View::ALL {
+            some.render(scene, &rays, method, view);
+            all.render_all(scene, &rays, method, view);
+            assert!(some == all, "{method}, {}", view.name());
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn what_is_left_out_changes_no_bit(
+        scene in any_scene(),
+        (width, height) in (1_u32..40, 1_u32..30),
+    ) {
+        assert_same(&scene, Size::new(width, height), PixelShape::Aspect(1.5));
+    }
+}
+
+#[test]
+fn what_is_left_out_changes_no_bit_at_the_ends_of_the_range() {
+    let bodies = vec![
+        body([0.0, 0.0, -1e30], 1e29),
+        body([0.0, 1.0, -3e38], 1e38),
+        body([1e-30, 0.0, -1e-30], 1e-31),
+        body([0.0, 0.0, -1e20], 1e-30),
+        body([0.0, 0.0, -5.0], 0.0),
+        body([0.0, 0.0, 0.0], 0.0),
+    ];
+    for field_of_view in [1e-30, 1e-3, 179.999_98] {
+        let camera = Camera {
+            projection: Projection::Perspective { field_of_view },
+            ..looking_down_z([0.0; 3])
+        };
+        let scene = scene(camera, bodies.clone());
+        assert_same(&scene, Size::new(17, 17), PixelShape::Aspect(1.0));
+    }
+    for extent in [1e-38, 1e-30, 1e30] {
+        let camera = Camera {
+            projection: Projection::Orthographic {
+                extent: [extent, extent],
+            },
+            ..looking_down_z([0.0; 3])
+        };
+        let scene = scene(camera, bodies.clone());
+        assert_same(&scene, Size::new(17, 17), PixelShape::Aspect(1.0));
+    }
+}
