@@ -273,7 +273,8 @@ impl Layout<'_> {
             signs,
         } = *self;
         let more = if exact { "" } else { signs.ellipsis() };
-        if negative {
+        // In print a zero has no sign; in a file it reads back as the zero it was.
+        if negative && !(digits.is_empty() && signs == Signs::Typographic) {
             f.write_str(signs.minus())?;
         }
         if digits.is_empty() {
@@ -337,6 +338,7 @@ mod tests {
         }
         let print = |x| binary32(x, Signs::Typographic).to_string();
         assert_eq!(print(-40.0), "−40");
+        assert_eq!(print(-0.0), "0");
         assert_eq!(print(-1.5e-7), "−1.5e−7");
         assert_eq!(print(f32::NEG_INFINITY), "−∞");
         assert_eq!(format!("{:>4}", binary32(7.0, Signs::Ascii)), "   7");

@@ -32,10 +32,8 @@ pub(super) enum Form {
     NearOverA,
     /// near = C/q, far = q/A.
     FarOverA,
-    /// D = 0: both are q/A.
+    /// D = 0: both are q/A. With b = 0 too, q = 0 and C/q would be 0/0.
     Double,
-    /// q = 0, so b = 0 and D = 0: both are 0, where C/q would be 0/0.
-    Zero,
 }
 
 /// Both roots; near ≤ far unless one of them is NaN.
@@ -45,9 +43,7 @@ pub(super) fn roots<T: Number>(a: T, b: T, c: T, reduced: T) -> Roots<T> {
     let root = reduced.sqrt();
     let signed_root = if b < zero { -root } else { root };
     let q = -(b + signed_root);
-    let (near, far, form) = if q == zero {
-        (zero, zero, Form::Zero)
-    } else if reduced == zero {
+    let (near, far, form) = if reduced == zero {
         let both = q / a;
         (both, both, Form::Double)
     } else if b < zero {
@@ -171,11 +167,6 @@ pub(super) fn root_steps<'t, F: Float>(
         Form::Double => {
             let why = "D = 0: both roots are one.";
             ([(over_a.0, over_a.1, why); 2], "let both = q / a;")
-        }
-        Form::Zero => {
-            let why =
-                "q = 0: b = 0 and D = 0, so the line touches the sphere where the ray starts.";
-            ([("0", "0", why); 2], "(zero, zero, Form::Zero)")
         }
     };
     let values = [

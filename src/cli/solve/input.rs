@@ -6,22 +6,28 @@ use crate::geometry::{Ray, Sphere};
 
 /// A decimal rounded once to binary32; refused with its text if it is none, or beyond the range.
 pub(super) fn number(field: &[u8]) -> Result<f32, String> {
-    let text = String::from_utf8_lossy(field.trim_ascii());
-    if text.is_empty() {
-        return Err("nothing there; expected a number".to_owned());
+    let field = field.trim_ascii();
+    let number = str::from_utf8(field)
+        .ok()
+        .and_then(|text| text.parse().ok());
+    match number {
+        Some(number) if f32::is_finite(number) => Ok(number),
+        number => Err(refusal(field, number)),
     }
-    let shown = || text.chars().take(40).collect::<String>();
-    match text.parse::<f32>() {
-        Ok(x) if x.is_finite() => Ok(x),
-        Ok(x) if x.is_infinite() && text.contains(|c: char| c.is_ascii_digit()) => Err(format!(
-            "{} is past the range of binary32; expected at most 3.4028235e38",
-            shown()
-        )),
-        Ok(_) => Err(format!("{} is no finite number; expected one", shown())),
-        Err(_) => Err(format!(
-            "`{}` is not a number; expected one like -1.5e3",
-            shown()
-        )),
+}
+
+/// Why a field is no number that will do.
+fn refusal(field: &[u8], number: Option<f32>) -> String {
+    let text = String::from_utf8_lossy(field);
+    let shown: String = text.chars().take(40).collect();
+    let has_digits = text.contains(|c: char| c.is_ascii_digit());
+    match number {
+        None if text.is_empty() => "nothing there; expected a number".to_owned(),
+        None => format!("`{shown}` is not a number; expected one like -1.5e3"),
+        Some(x) if x.is_infinite() && has_digits => {
+            format!("{shown} is past the range of binary32; expected at most 3.4028235e38")
+        }
+        Some(_) => format!("{shown} is no finite number; expected one"),
     }
 }
 

@@ -31,11 +31,11 @@ struct Document<'a> {
     place: Option<&'static str>,
     visible: Option<Number>,
     precision: &'static str,
-    a: MeasuredOut,
-    b: MeasuredOut,
-    c: MeasuredOut,
-    discriminant: MeasuredOut,
-    roots: RootsOut,
+    a: Number,
+    b: Number,
+    c: Number,
+    discriminant: Number,
+    errors: Errors,
     truth: Answer,
     verdict: Option<String>,
     steps: Vec<StepOut<'a>>,
@@ -61,13 +61,17 @@ impl<'a> Document<'a> {
             place: solution.place().map(Place::name),
             visible: solution.visible().map(Number::binary32),
             precision: precision(trace.a.precision),
-            a: MeasuredOut::new(&trace.a),
-            b: MeasuredOut::new(&trace.b),
-            c: MeasuredOut::new(&trace.c),
-            discriminant: MeasuredOut::new(&trace.discriminant),
-            roots: RootsOut {
-                near: trace.near.as_ref().map(MeasuredOut::new),
-                far: trace.far.as_ref().map(MeasuredOut::new),
+            a: Number::of(&trace.a),
+            b: Number::of(&trace.b),
+            c: Number::of(&trace.c),
+            discriminant: Number::of(&trace.discriminant),
+            errors: Errors {
+                a: Error::of(&trace.a),
+                b: Error::of(&trace.b),
+                c: Error::of(&trace.c),
+                discriminant: Error::of(&trace.discriminant),
+                near: trace.near.as_ref().map(Error::of),
+                far: trace.far.as_ref().map(Error::of),
             },
             truth: Answer::new(trace.truth),
             verdict: trace.verdict(Signs::Ascii),
@@ -89,9 +93,13 @@ struct SphereOut {
 }
 
 #[derive(Serialize)]
-struct RootsOut {
-    near: Option<MeasuredOut>,
-    far: Option<MeasuredOut>,
+struct Errors {
+    a: Error,
+    b: Error,
+    c: Error,
+    discriminant: Error,
+    near: Option<Error>,
+    far: Option<Error>,
 }
 
 #[derive(Serialize)]
@@ -170,18 +178,29 @@ impl<'a> LossOut<'a> {
 #[derive(Serialize)]
 struct MeasuredOut {
     value: Number,
-    exact: Option<String>,
-    ulps: Option<Number>,
+    #[serde(flatten)]
+    error: Error,
 }
 
 impl MeasuredOut {
     fn new(measured: &Measured) -> Self {
+        Self {
+            value: Number::of(measured),
+            error: Error::of(measured),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct Error {
+    exact: Option<String>,
+    ulps: Option<Number>,
+}
+
+impl Error {
+    fn of(measured: &Measured) -> Self {
         let exact = |value: &Surd| format::exact(value, DIGITS, Signs::Ascii);
         Self {
-            value: Number {
-                value: measured.value,
-                precision: measured.precision,
-            },
             exact: measured.exact.as_ref().map(exact),
             ulps: measured.ulps().map(|value| Number {
                 value,
@@ -198,6 +217,13 @@ struct Number {
 }
 
 impl Number {
+    fn of(measured: &Measured) -> Self {
+        Self {
+            value: measured.value,
+            precision: measured.precision,
+        }
+    }
+
     fn binary32(value: f32) -> Self {
         Self {
             value: value.into(),

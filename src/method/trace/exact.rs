@@ -3,12 +3,12 @@
 
 use super::{Measured, Quantity, Step};
 use crate::geometry::{Ray, Sphere};
+use crate::method::Precision;
 use crate::method::dyadic::Dyadic;
-use crate::method::exact::{self, Bounded, Findings, Record, Roots, Stage};
+use crate::method::exact::{self, Bounded, Direct, Discriminant, Findings, Record, Stage};
 use crate::method::format::{Shortest, Signs, binary32, binary64};
 use crate::method::surd::Surd;
 use crate::method::truth::Truth;
-use crate::method::{Class, Precision};
 
 /// Steps keep their numbers in print; whoever shows them spells them.
 const SIGNS: Signs = Signs::Typographic;
@@ -17,17 +17,12 @@ const SIGNS: Signs = Signs::Typographic;
 pub(in crate::method) fn steps(ray: &Ray, sphere: &Sphere, truth: &Truth) -> Vec<Step> {
     let record = exact::record(ray, sphere);
     let mut steps = discriminant_steps(ray, sphere, truth, &record);
-    let Some((first, later)) = record.findings.split_first() else {
-        return steps;
-    };
-    steps.push(sign_step(first));
-    if record.solution.class != Class::Miss {
-        steps.extend(coefficient_steps(ray, sphere, truth, &record, first));
+    steps.push(sign_step(&record.discriminant));
+    if let Some(direct) = &record.direct {
+        steps.extend(root_steps(ray, truth, &record.discriminant, direct));
     }
-    if let Some(roots) = &first.roots {
-        steps.extend(root_steps(truth, first, roots));
-    }
-    steps.extend(later.iter().map(|found| stage_step(truth, found)));
+    let later = record.findings.iter().skip(1);
+    steps.extend(later.map(|found| stage_step(truth, &record, found)));
     if record.solution.class.meets() {
         steps.extend(answer_steps(truth, &record));
     }
@@ -35,7 +30,7 @@ pub(in crate::method) fn steps(ray: &Ray, sphere: &Sphere, truth: &Truth) -> Vec
 }
 
 fn discriminant_steps(ray: &Ray, sphere: &Sphere, truth: &Truth, record: &Record) -> Vec<Step> {
-    let exact::Discriminant {
+    let Discriminant {
         o, a, ar2, k2, d, ..
     } = record.discriminant;
     let [p0, center] = [ray.origin, sphere.center].map(|v| v.to_array());
@@ -92,9 +87,9 @@ fn discriminant_steps(ray: &Ray, sphere: &Sphere, truth: &Truth, record: &Record
 }
 
 /// Whether stage 1 knows the sign of D.
-fn sign_step(first: &Findings) -> Step {
-    let [d, bound] = [first.estimate.d.abs(), first.estimate.d_error];
-    let (than, verdict) = match first.class {
+fn sign_step(discriminant: &Discriminant<f64>) -> Step {
+    let [d, bound] = [discriminant.d.abs(), discriminant.d_error];
+    let (than, verdict) = match discriminant.class() {
         Some(_) => (">", "the sign of D is certain"),
         None => ("≤", "the sign of D is open"),
     };
@@ -105,21 +100,41 @@ fn sign_step(first: &Findings) -> Step {
             format!("|D| = {} {than} 4·{}: {verdict}", text(d), text(bound)),
         ),
         measured(bound, Surd::from_f64(bound)),
-        "let threshold = 4.0 * discriminant.d_error;",
+        "let threshold = 4.0 * self.d_error;",
         "A bound on the rounding errors of D: farther from 0 than that, its sign is right.",
     )
 }
 
-fn coefficient_steps(
+/// What stage 1 makes of the roots: b, √D, and two numbers with their bounds.
+fn root_steps(
     ray: &Ray,
-    sphere: &Sphere,
     truth: &Truth,
-    record: &Record,
-    first: &Findings,
-) -> [Step; 2] {
+    discriminant: &Discriminant<f64>,
+    direct: &Direct<f64>,
+) -> [Step; 4] {
     let d = ray.direction.to_array().map(|x| factor(binary32(x, SIGNS)));
-    let [x, y, z] = record.discriminant.o.map(|x| factor(binary64(x, SIGNS)));
-    let r = binary32(sphere.radius, SIGNS);
+    let [x, y, z] = discriminant.o.map(|x| factor(binary64(x, SIGNS)));
+    let root_d = Surd::from(truth.quarter_discriminant.clone()).checked_sqrt();
+    let b = factor(binary64(direct.half_b, SIGNS));
+    let [s, a] = [direct.s, discriminant.a].map(text);
+    let root = |symbol, formula, sign, code, root: Bounded<f64>, exact| {
+        let certainty = if root.error.is_finite() {
+            format!("within {}", text(root.error))
+        } else {
+            "but how near that is is open".to_owned()
+        };
+        scalar(
+            (
+                symbol,
+                formula,
+                format!("(−{b} {sign} {s}) / {a}, {certainty}"),
+            ),
+            measured(root.value, exact),
+            code,
+            "The root in binary64, and how far from the exact one it may be at most.",
+        )
+    };
+    let [near, far] = direct.roots(discriminant);
     [
         scalar(
             (
@@ -127,122 +142,79 @@ fn coefficient_steps(
                 "d·o",
                 format!("{}·{x} + {}·{y} + {}·{z}", d[0], d[1], d[2]),
             ),
-            measured(first.estimate.half_b, Some(truth.half_b.clone().into())),
-            "half_b: (terms[0] + terms[1]) + terms[2],",
+            measured(direct.half_b, Some(truth.half_b.clone().into())),
+            "let half_b = dot(o, input.d);",
             "Half of B: below 0 if the ray comes nearer to the centre as it starts.",
         ),
         scalar(
-            ("C", "|o|² − r²", format!("{x}² + {y}² + {z}² − {r}²")),
-            measured(first.estimate.c, Some(truth.c.clone().into())),
-            "let c = o2 - r * r;",
-            "What is left without t: below 0 if the ray starts inside, 0 if on the surface.",
-        ),
-    ]
-}
-
-/// What stage 1 makes of the roots: √D, Q, and two numbers with their bounds.
-fn root_steps(truth: &Truth, first: &Findings, roots: &Roots<f64>) -> [Step; 4] {
-    let estimate = &first.estimate;
-    let root_d = Surd::from(truth.quarter_discriminant.clone()).checked_sqrt();
-    let exact_q = root_d
-        .as_ref()
-        .and_then(|s| s.checked_add(&truth.half_b.clone().abs().into()));
-    let over_a = (
-        "Q/A",
-        format!("{} / {}", text(roots.q), text(estimate.a)),
-        "let great = q * inverse_a;",
-    );
-    let over_q = (
-        "C/Q",
-        format!("{} / {}", text(estimate.c), text(roots.q)),
-        "let small = c * inverse_q;",
-    );
-    let (near, far) = if estimate.half_b < 0.0 {
-        (over_q, over_a)
-    } else {
-        (
-            ("−Q/A", format!("−({})", over_a.1), over_a.2),
-            ("−C/Q", format!("−({})", over_q.1), over_q.2),
-        )
-    };
-    let root = |symbol, (formula, numbers, code): (_, String, _), root: Bounded<f64>, exact| {
-        scalar(
-            (
-                symbol,
-                formula,
-                format!("{numbers}, within {}", text(root.error)),
-            ),
-            measured(root.value, exact),
-            code,
-            "The root in binary64, and how far from the exact one it may be at most.",
-        )
-    };
-    [
-        scalar(
-            ("√D", "√D", format!("√{}", text(estimate.d))),
-            measured(roots.s, root_d),
+            ("√D", "√D", format!("√{}", text(discriminant.d))),
+            measured(direct.s, root_d),
             "let s = d.sqrt();",
             "Half the way between the two points, measured in t and times A.",
         ),
-        scalar(
-            (
-                "Q",
-                "|b| + √D",
-                format!("|{}| + {}", text(estimate.half_b), text(roots.s)),
-            ),
-            measured(roots.q, exact_q),
-            "let q = half_b.abs() + s;",
-            "Of the two sums −b ± √D, the size of the one that does not cancel.",
+        root(
+            "near₆₄",
+            "(−b − √D) / A",
+            '−',
+            "let near = -half_b - s;",
+            near,
+            truth.near(),
         ),
-        root("near₆₄", near, roots.near, truth.near()),
-        root("far₆₄", far, roots.far, truth.far()),
+        root(
+            "far₆₄",
+            "(−b + √D) / A",
+            '+',
+            "let far = s - half_b;",
+            far,
+            truth.far(),
+        ),
     ]
 }
 
 /// A stage after the first: what it found and settled.
-fn stage_step(truth: &Truth, found: &Findings) -> Step {
+fn stage_step(truth: &Truth, record: &Record, found: &Findings) -> Step {
     let (symbol, why, code) = match found.stage {
         Stage::Binary64 | Stage::Compensated => (
             "C, compensated",
             "C cancels: the rounding errors of its differences, squares and sums are added back.",
-            "Stage::Compensated => compensated(input, &first.findings),",
+            "Stage::Compensated => compensated(input, discriminant),",
         ),
         Stage::Plain => (
             "D, in whole numbers",
             "The inputs are small whole numbers of some unit: so is everything else, exactly.",
-            "Stage::Plain => Plain::of(input).map(|plain| consult(stage, &plain, answer)),",
+            "Stage::Plain => Plain::of(input).map(|plain| consult(stage, &plain, open)),",
         ),
         Stage::DoubleDouble => (
             "D, double-double",
             "The same formulas with twice the bits, and a bound that is so much smaller.",
-            "Stage::DoubleDouble => Some(consult(stage, &Doubled::new(input), answer)),",
+            "Stage::DoubleDouble => Some(consult(stage, &Doubled::new(input), open)),",
         ),
         Stage::Integer => (
             "D, integers",
             "Whole numbers of 1152 bits, which hold every possible D: nothing is rounded.",
-            "Stage::Integer => Some(consult(stage, &Exact::new(input), answer)),",
+            "Stage::Integer => Some(consult(stage, &Exact::new(input), open)),",
         ),
     };
-    let result = match found.stage {
-        Stage::Compensated => measured(found.estimate.c, Some(truth.c.clone().into())),
-        _ => measured(
-            found.estimate.d,
-            Some(truth.quarter_discriminant.clone().into()),
-        ),
+    let (value, exact) = match (found.stage, &found.estimate) {
+        (Stage::Compensated, Some(estimate)) => (estimate.c, &truth.c),
+        (_, Some(estimate)) => (estimate.d, &truth.quarter_discriminant),
+        (_, None) => (record.discriminant.d, &truth.quarter_discriminant),
     };
-    let known = |root: Option<f32>| match root {
+    let known = |root: Option<f32>, by: Option<Stage>| match root {
         Some(t) => binary32(t, SIGNS).to_string(),
+        None if by.is_some_and(|by| by < found.stage) => "known".to_owned(),
         None => "open".to_owned(),
     };
-    let numbers = match found.class {
-        None => "the sign of D is still open".to_owned(),
-        Some(Class::Miss) => "a miss".to_owned(),
-        Some(class) => format!(
-            "{class}, near {}, far {}",
-            known(found.near),
-            known(found.far)
-        ),
+    let numbers = match (found.class, found.roots) {
+        (None, _) => "the sign of D is still open".to_owned(),
+        (Some(class), None) => format!("a {class}"),
+        (Some(class), Some([near, far])) => {
+            let near = known(near.settled, record.stages.near);
+            let far = known(far.settled, record.stages.far);
+            format!("{class}, near {near}, far {far}")
+        }
     };
+    let result = measured(value, Some(exact.clone().into()));
     scalar((symbol, "by the next stage", numbers), result, code, why)
 }
 
@@ -254,22 +226,28 @@ fn answer_steps(truth: &Truth, record: &Record) -> [Step; 2] {
         ("far", solution.far, truth.far(), record.stages.far),
     ]
     .map(|(symbol, value, exact, stage)| {
+        let stage = stage.unwrap_or(record.stages.class);
+        let (code, why) = match stage {
+            Stage::Binary64 => (
+                "let [t, too] = bounds.map(rounding::round);",
+                "Both ends of what the bound leaves round to this one number.",
+            ),
+            Stage::Compensated => (
+                "settled: rounding::by_bound(bounded),",
+                "Both ends of what the bound leaves round to this one number.",
+            ),
+            Stage::Plain | Stage::DoubleDouble | Stage::Integer => (
+                "None => rounding::by_signs(which, bounded, quadratic),",
+                "Of the two numbers left, the signs of f(m) and f′(m) half way between choose this.",
+            ),
+        };
         let root = Measured {
             value: value.into(),
             precision: Precision::Binary32,
             exact,
         };
-        let by = stage.map_or("", Stage::name);
-        scalar(
-            (
-                symbol,
-                "the exact root rounded once to binary32",
-                format!("settled by {by}"),
-            ),
-            root,
-            "answer.learn(&found);",
-            "All that the bound leaves rounds to this one number, or signs at the midpoints say so.",
-        )
+        let formula = "the exact root rounded once to binary32";
+        scalar((symbol, formula, format!("settled by {stage}")), root, code, why)
     })
 }
 
