@@ -103,6 +103,9 @@ fn finite(field: &str, value: f32) -> Result<(), Invalid> {
 }
 
 fn finite_vector(name: &str, v: Vec3) -> Result<(), Invalid> {
+    if v.is_finite() {
+        return Ok(());
+    }
     for (axis, value) in ["x", "y", "z"].into_iter().zip(v.to_array()) {
         finite(&format!("{name}.{axis}"), value)?;
     }

@@ -141,18 +141,22 @@ fn each_stage_settles_what_it_is_for() {
             [20., 20., 0., 0., 0., 1., 20., 20., 20., 10.],
             Stage::Binary64,
         ),
+        // The tutorial's tangent, pixel (30, 20).
+        (
+            [30., 20., 0., 0., 0., 1., 20., 20., 20., 10.],
+            Stage::Unrounded,
+        ),
+        // From the surface.
+        ([1., 0., 0., -1., 0., 0., 0., 0., 0., 1.], Stage::Unrounded),
         // One and a half millimetres above a sphere of a thousand kilometres.
         (
             [0., 0.0015, 0., 0.3, -1., 0., 0., -1e6, 0., 1e6],
             Stage::Compensated,
         ),
-        // The tutorial's tangent, pixel (30, 20).
-        ([30., 20., 0., 0., 0., 1., 20., 20., 20., 10.], Stage::Plain),
-        // From the surface, and a root half way between two binary32.
-        ([1., 0., 0., -1., 0., 0., 0., 0., 0., 1.], Stage::Plain),
+        // A root half way between two binary32.
         (
             [-16_777_216., 0., 0., 1., 0., 0., 0., 0., 0., 1.],
-            Stage::Plain,
+            Stage::Whole,
         ),
         // A sphere of 10⁻²⁰ seen from 1 away.
         (

@@ -10,7 +10,7 @@ use ratatui::layout::Rect;
 use rayscope::explorer::action::{Action, markdown};
 use rayscope::explorer::{Explorer, Options};
 use rayscope::method::Method;
-use rayscope::render::ColorDepth;
+use rayscope::render::{ColorDepth, Style};
 use rayscope::scene::Scene;
 
 /// An explorer with a screen.
@@ -144,6 +144,10 @@ fn screens_at_80_by_24_and_160_by_50() {
         for scene in ["seed", "trio"] {
             let screen = Person::opens(scene, cols, rows).screen();
             insta::assert_snapshot!(format!("{scene}_{cols}x{rows}"), screen);
+            let steps = Person::opens(scene, cols, rows)
+                .presses("enter . . . . . . . .")
+                .screen();
+            insta::assert_snapshot!(format!("{scene}_steps_{cols}x{rows}"), steps);
         }
     }
     insta::assert_snapshot!(
@@ -355,22 +359,91 @@ fn all_spheres_of_a_line_are_listed_and_one_can_be_chosen() {
 }
 
 #[test]
+fn a_person_walks_through_the_derivation_and_back() {
+    let mut person = Person::opens("seed", 80, 24);
+    let before = person.screen();
+    person.presses("enter").shows("step 1 of");
+    let first = person.screen();
+    for (step, result) in [("A", "= 1"), ("B", "= −40"), ("C", "= 300"), ("Δ", "= 400")] {
+        person.commands(&format!("step {step}")).shows(result);
+    }
+    person.presses("> ,").shows("shade");
+    person.presses("<");
+    assert_eq!(person.screen(), first, "stepping back restores the screen");
+    person.presses("1");
+    assert_eq!(person.screen(), before);
+}
+
+#[test]
+fn moving_on_keeps_the_step_and_marks_what_changed() {
+    let mut person = Person::opens("seed", 80, 24);
+    person.commands("step C").presses("right");
+    person.shows(": C");
+    person.shows("= 301");
+    person.shows("[C*]");
+    person.shows(" A ");
+}
+
+#[test]
+fn predicting_hides_the_answer_until_it_is_given() {
+    let mut person = Person::opens("seed", 80, 24);
+    person.commands("step Δ").presses("P");
+    person.shows("Is Δ negative, zero or positive?");
+    assert!(!person.screen().contains("= 400"));
+    person.presses("-").shows("It is positive");
+    person.shows("= 400");
+    person
+        .commands("step verdict")
+        .presses("2")
+        .shows("Yes, two. 1 of 2 foreseen.");
+    person.presses("enter").shows("Which root is seen?");
+    person.presses("enter").shows("hit: the near point is seen");
+}
+
+#[test]
+fn the_board_shows_one_step_and_hides_its_answer() {
+    let mut person = Person::opens("seed", 80, 24);
+    person.commands("step C").presses("O");
+    let hidden = person.screen();
+    let revealed = person.presses("enter").screen();
+    assert_ne!(hidden, revealed);
+    insta::assert_snapshot!("board_hidden_80x24", hidden);
+    insta::assert_snapshot!("board_revealed_80x24", revealed);
+    person.presses("O").shows("view 40×40");
+}
+
+#[test]
 fn the_guide_lists_the_keys_that_there_are() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/guide.md");
-    let guide = fs::read_to_string(path).unwrap();
-    let (before, rest) = guide.split_once("<!-- keys -->\n").expect("the keys' mark");
-    let (listed, after) = rest
-        .split_once("<!-- end of keys -->")
-        .expect("the end's mark");
+    hold_to_docs("docs/guide.md", "keys", &markdown());
+}
+
+#[test]
+fn the_readme_shows_the_real_screen() {
+    let options = Options {
+        style: Style::Ascii,
+        ..Options::default()
+    };
+    let screen = Person::with("trio", 80, 24, options).screen();
+    hold_to_docs("README.md", "screen", &format!("```text\n{screen}```\n"));
+}
+
+/// What stands between the marks `NAME` and `end of NAME` of a page is `text`.
+fn hold_to_docs(page: &str, name: &str, text: &str) {
+    let path = format!("{}/{page}", env!("CARGO_MANIFEST_DIR"));
+    let whole = fs::read_to_string(&path).expect("a page");
+    let marks = [
+        format!("<!-- {name} -->\n"),
+        format!("<!-- end of {name} -->"),
+    ];
+    let (before, rest) = whole.split_once(&marks[0]).expect("the first mark");
+    let (found, after) = rest.split_once(&marks[1]).expect("the second mark");
     if std::env::var_os("RAYSCOPE_UPDATE_DOCS").is_some() {
-        let keys = markdown();
-        let fresh = format!("{before}<!-- keys -->\n{keys}<!-- end of keys -->{after}");
-        fs::write(path, fresh).unwrap();
+        let fresh = format!("{before}{}{text}{}{after}", marks[0], marks[1]);
+        fs::write(path, fresh).expect("the page written");
     } else {
         assert_eq!(
-            listed,
-            markdown(),
-            "RAYSCOPE_UPDATE_DOCS=1 cargo test rewrites it"
+            found, text,
+            "RAYSCOPE_UPDATE_DOCS=1 cargo test rewrites {page}"
         );
     }
 }

@@ -274,7 +274,7 @@ fn any_camera(eye: Vec3, bodies: &[Body]) -> impl Strategy<Value = Camera> + use
     let size = (target.radius / offset.length()).clamp(1e-4, 1.0);
     let towards = prop_oneof![
         Just(offset),
-        Just(-offset),
+        any_direction().prop_map(move |v| target.radius * v - offset),
         any_direction().prop_map(move |v| offset + target.radius * v),
         any_direction(),
     ];

@@ -1,12 +1,18 @@
 //! Scene files: what is written reads back, what is wrong is said in one sentence, and the built-in
 //! scenes teach what they promise.
 
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::Path;
+use std::process::{Command, Output};
+
 use glam::Vec3;
 use proptest::prelude::*;
 use rayscope::geometry::{Ray, Sphere};
 use rayscope::method::{Class, Method, Place};
 use rayscope::scene::{
-    Aim, Body, Builtin, Camera, Light, PixelShape, Probe, Projection, Rays, Rgb, Scene, Size,
+    Aim, Body, Builtin, Camera, LARGEST_FILE, Light, PixelShape, Probe, Projection, Rays, Rgb,
+    Scene, Size, Source,
 };
 
 /// Any finite binary32, subnormal and −0 among them.
@@ -377,5 +383,273 @@ fn the_crowd_is_the_same_on_every_machine() {
             .bodies
             .iter()
             .all(|b| Sphere::new(b.sphere.center, b.sphere.radius).is_ok())
+    );
+}
+
+const CAMERA: &str = "[camera]\nposition = [0, 0, 10]\nlook_at = [0, 0, 0]\n";
+const SPHERE: &str = "[[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
+const WINDOW: &str = "projection = \"orthographic\"\nextent = [4, 3]\n";
+
+/// Every kind of file that is refused, with a name for each.
+#[expect(
+    clippy::too_many_lines,
+    reason = "a table, a line or two for each kind"
+)]
+fn bad_files() -> Vec<(&'static str, String)> {
+    let camera = |lines: &str| format!("[camera]\n{lines}\n");
+    let look = "position = [0, 0, 10]\nlook_at = [0, 0, 0]\n";
+    let with_camera = |lines: &str| camera(&format!("{look}{lines}"));
+    let after = |lines: &str| format!("{CAMERA}{lines}\n");
+    let sphere = |lines: &str| format!("{CAMERA}{SPHERE}[[sphere]]\n{lines}\n");
+    let probe = |lines: &str| {
+        format!("{CAMERA}pixels = [40, 30]\n[[probe]]\ntitle = \"t\"\ntext = \"s\"\n{lines}\n")
+    };
+    vec![
+        ("an empty file", String::new()),
+        ("no TOML", after("[[sphere]\ncenter = 3")),
+        ("text without quotes", after("[light]\nposition = here")),
+        ("a quote left open", format!("name = \"two\n{CAMERA}")),
+        ("a key twice", sphere("radius = 1\nradius = 2")),
+        ("a table twice", after("[camera]\nposition = [0, 0, 0]")),
+        ("a misspelt key", sphere("center = [0, 0, 0]\nraduis = 1")),
+        ("a misspelt table", after("[[spheres]]\nradius = 1")),
+        (
+            "a key from elsewhere",
+            sphere("center = [0, 0, 0]\nradius = 1\nxyz = 1"),
+        ),
+        ("a name that is no text", format!("name = 7\n{CAMERA}")),
+        (
+            "a name that runs on",
+            format!("name = \"two\\nlines\"\n{CAMERA}"),
+        ),
+        (
+            "a name with an escape",
+            format!("name = \"\\u001b[2J\"\n{CAMERA}"),
+        ),
+        ("a camera that is no table", "camera = 3".to_owned()),
+        ("a sphere not in a list", after("[sphere]\nradius = 1")),
+        ("no table where one should be", "sphere = [1]".to_owned()),
+        ("no position", camera("look_at = [0, 0, 0]")),
+        ("nothing to look at", camera("position = [0, 0, 0]")),
+        (
+            "a camera that looks at itself",
+            camera("position = [1, 2, 3]\nlook_at = [1, 2, 3]"),
+        ),
+        ("up along the view", with_camera("up = [0, 0, 2]")),
+        ("no up at all", with_camera("up = [0, 0, 0]")),
+        (
+            "another projection",
+            with_camera("projection = \"fisheye\""),
+        ),
+        ("an angle too wide", with_camera("field_of_view = 180")),
+        ("no extent", with_camera("projection = \"orthographic\"")),
+        (
+            "an extent of zero",
+            with_camera("projection = \"orthographic\"\nextent = [4, 0]"),
+        ),
+        (
+            "an extent out of range",
+            with_camera("projection = \"orthographic\"\nextent = [1, 1e36]"),
+        ),
+        (
+            "an angle without perspective",
+            with_camera(&format!("{WINDOW}field_of_view = 45")),
+        ),
+        ("an extent in perspective", with_camera("extent = [4, 3]")),
+        ("no pixels", with_camera("pixels = [0, 40]")),
+        ("too many pixels", with_camera("pixels = [40, 5000]")),
+        ("half a pixel", with_camera("pixels = [40, 30.5]")),
+        ("pixels in one number", with_camera("pixels = 40")),
+        ("no radius", sphere("center = [0, 0, 0]")),
+        ("no centre", sphere("radius = 1")),
+        (
+            "a negative radius",
+            sphere("center = [0, 0, 0]\nradius = -3"),
+        ),
+        (
+            "a radius that is text",
+            sphere("center = [0, 0, 0]\nradius = \"3\""),
+        ),
+        (
+            "a radius that is true",
+            sphere("center = [0, 0, 0]\nradius = true"),
+        ),
+        (
+            "a radius that is a day",
+            sphere("center = [0, 0, 0]\nradius = 2011-01-02"),
+        ),
+        ("NaN", sphere("center = [0, nan, 0]\nradius = 1")),
+        ("an infinity", sphere("center = [0, 0, -inf]\nradius = 1")),
+        ("past binary32", sphere("center = [1e39, 0, 0]\nradius = 1")),
+        (
+            "past binary32 in hexadecimal",
+            sphere(&format!(
+                "center = [0, 0, 0x1{}]\nradius = 1",
+                "0".repeat(32)
+            )),
+        ),
+        ("two coordinates", sphere("center = [0, 0]\nradius = 1")),
+        (
+            "a coordinate that is a list",
+            sphere("center = [0, [1], 0]\nradius = 1"),
+        ),
+        (
+            "a colour by name",
+            sphere("center = [0, 0, 0]\nradius = 1\ncolor = \"red\""),
+        ),
+        ("a light without position", after("[light]")),
+        ("a probe that points nowhere", probe("")),
+        (
+            "a probe that points twice",
+            probe("pixel = [1, 1]\npoint = [0, 0, 0]"),
+        ),
+        ("a probe past the pixels", probe("pixel = [40, 0]")),
+        ("a probe before the pixels", probe("pixel = [-1, 0]")),
+        (
+            "a pixel without pixels",
+            after("[[probe]]\ntitle = \"t\"\ntext = \"s\"\npixel = [1, 1]"),
+        ),
+        (
+            "a probe without title",
+            after("[[probe]]\ntext = \"s\"\npoint = [1, 1, 1]"),
+        ),
+        (
+            "a long text for a number",
+            sphere(&format!(
+                "center = [0, 0, 0]\nradius = \"{}\"",
+                "long ".repeat(30)
+            )),
+        ),
+    ]
+}
+
+#[test]
+fn each_kind_of_bad_file_has_its_sentence() {
+    let mut said = String::new();
+    for (kind, text) in bad_files() {
+        let error = Scene::parse(&text, "bad.toml").expect_err(kind);
+        writeln!(said, "{kind}\n    {error}").unwrap();
+    }
+    insta::assert_snapshot!(said);
+}
+
+/// What loading a file of these bytes says, without the name of the file.
+fn said_of(bytes: &[u8]) -> String {
+    let mut file = tempfile::NamedTempFile::new().unwrap();
+    file.write_all(bytes).unwrap();
+    let error = Scene::load(file.path()).unwrap_err();
+    error.to_string().split_off(error.file.len())
+}
+
+#[test]
+fn files_that_are_no_text_are_refused() {
+    assert_eq!(
+        said_of(b"name = \"a\"\nabout = \"caf\xe9\"\n"),
+        ":2:13: found the byte 0xe9, expected text in UTF-8"
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |path: &Path| Scene::load(path).unwrap_err().problem;
+    assert_eq!(
+        refused(folder.path()),
+        "found a directory, expected a scene file"
+    );
+    assert_eq!(
+        refused(&folder.path().join("none.toml")),
+        "found no such file, expected a scene file"
+    );
+    let large = tempfile::NamedTempFile::new().unwrap();
+    large.as_file().set_len(LARGEST_FILE + 1).unwrap();
+    assert_eq!(
+        refused(large.path()),
+        "found more than 256 MiB, expected a scene file of at most 256 MiB"
+    );
+}
+
+#[test]
+fn a_fault_far_down_a_long_file_is_found_at_its_line() {
+    let mut text = format!("{CAMERA}{}", SPHERE.repeat(2000));
+    text += "[[sphere]]\ncenter = [0, 0, 0]\nradius = -1\n";
+    assert_eq!(
+        Scene::parse(&text, "long.toml").unwrap_err().to_string(),
+        "long.toml:6006:10: sphere 2001, radius: found -1, expected a finite number of zero or more"
+    );
+    let text = format!("{CAMERA}{}colour = 3", SPHERE.repeat(2000));
+    assert_eq!(
+        Scene::parse(&text, "long.toml").unwrap_err().to_string(),
+        "long.toml:6004:1: sphere 2000: found the unknown key \"colour\", expected perhaps color"
+    );
+    let text = format!("{CAMERA}{}{CAMERA}", SPHERE.repeat(2000));
+    assert_eq!(
+        Scene::parse(&text, "long.toml").unwrap_err().to_string(),
+        "long.toml:6004:1: camera: found a second table, expected only one"
+    );
+}
+
+#[test]
+fn a_name_is_a_built_in_scene_or_a_file() {
+    let (scene, source) = Scene::open("trio").unwrap();
+    assert_eq!(
+        (scene, source),
+        (Builtin::Trio.scene(), Source::Builtin(Builtin::Trio))
+    );
+
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    std::fs::write(&path, format!("{CAMERA}{SPHERE}")).unwrap();
+    let (scene, source) = Scene::open(path.to_str().unwrap()).unwrap();
+    assert_eq!(scene.name, "mine");
+    assert_eq!(source, Source::File(path));
+
+    assert_eq!(
+        Scene::open("grasing").unwrap_err().to_string(),
+        "grasing: found no such file and no such built-in scene, expected perhaps grazing"
+    );
+}
+
+#[test]
+fn every_spelling_of_toml_says_the_same() {
+    let tables =
+        format!("name = \"same\"\n{CAMERA}{WINDOW}[light]\nposition = [1, 2, 3]\n{SPHERE}");
+    let inline = "\u{feff}name = 'same'\r\n\
+        sphere = [{ center = [0.0, +0, 0e7], radius = 0x1 }]\r\n\
+        light.position = [\r\n1,\r\n2_000e-3, 3.0, # light\r\n]\r\n\
+        camera = { projection = \"orthographic\", extent = [4, 3], position = [0, 0, 1_0], \
+        look_at = [0, 0, 0] }\r\n";
+    assert_eq!(Scene::parse(inline, "same"), Scene::parse(&tables, "same"));
+}
+
+fn rayscope(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_rayscope"))
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+#[test]
+fn the_program_prints_each_built_in_scene_as_a_file_of_it() {
+    for builtin in Builtin::ALL {
+        let output = rayscope(&["scenes", builtin.name()]);
+        assert!(output.status.success());
+        let text = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(Scene::parse(&text, "printed.toml"), Ok(builtin.scene()));
+    }
+}
+
+#[test]
+fn the_program_refuses_a_scene_that_it_does_not_have_by_offering_its_own() {
+    let output = rayscope(&["scenes", "sed"]);
+    assert_eq!(output.status.code(), Some(2));
+    let said = String::from_utf8(output.stderr).unwrap();
+    for builtin in Builtin::ALL {
+        assert!(said.contains(builtin.name()), "{said}");
+    }
+    assert!(said.contains("similar value exists: 'seed'"), "{said}");
+
+    let output = rayscope(&["no-such.toml"]);
+    assert_eq!(output.status.code(), Some(1));
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        said.starts_with("rayscope: no-such.toml: found no such file"),
+        "{said}"
     );
 }

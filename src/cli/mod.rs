@@ -5,6 +5,7 @@ mod explore;
 mod print;
 mod progress;
 mod scenes;
+mod solve;
 mod stress;
 
 use std::fmt;
@@ -30,6 +31,7 @@ enum Command {
     Bench(bench::Bench),
     Print(print::Print),
     Scenes(scenes::Scenes),
+    Solve(solve::Solve),
     Stress(stress::Stress),
 }
 
@@ -41,6 +43,7 @@ pub fn main() -> ExitCode {
         Some(Command::Bench(arguments)) => bench::run(&arguments),
         Some(Command::Print(arguments)) => print::run(&arguments),
         Some(Command::Scenes(arguments)) => scenes::run(&arguments),
+        Some(Command::Solve(arguments)) => solve::run(&arguments),
         Some(Command::Stress(arguments)) => stress::run(&arguments),
     }
 }

@@ -4,17 +4,25 @@
 //! out as lines of text with roles; the explorer colours them, `print --pixel` writes them as
 //! they are.
 
+mod compare;
+mod derivation;
+mod figure;
 mod number;
 mod panel;
+mod steps;
 
 use glam::{DVec3, Vec3};
 
 use crate::geometry::{Ray, Sphere};
-use crate::method::{Coefficients, Method, Place, Solution};
+use crate::method::{Coefficients, Method, Place, Solution, Trace};
 use crate::scene::{Body, Scene};
 
+pub use compare::{comparison, measured_bits};
+pub use derivation::{Drawn, Question, Step, derivation};
+pub use figure::{Float, Ink, bits, curve, slice};
 pub use number::{Digits, Glyphs, number, vector};
 pub use panel::{Line, Role, Span, fit, lines, plain_text};
+pub use steps::{StepLook, question_lines, step_lines, step_list, steps_text, wrap};
 
 /// What the ray of one pixel finds in a scene.
 #[derive(Debug, Clone)]
@@ -57,6 +65,8 @@ pub struct Subject {
     pub coefficients: Coefficients,
     /// The class and the roots.
     pub solution: Solution,
+    /// The method's own steps, each beside what it would have got without rounding.
+    pub trace: Trace,
     /// What is seen of it.
     pub sight: Option<Sight>,
 }
@@ -192,6 +202,7 @@ fn subject(scene: &Scene, body: usize, why: Why, ray: &Ray, method: Method) -> S
         why,
         coefficients: method.coefficients(ray, sphere),
         solution,
+        trace: method.trace(ray, sphere),
         sight: solution.visible().map(|t| sight(ray, sphere, &solution, t)),
     }
 }

@@ -16,7 +16,10 @@ use std::cmp::Ordering;
 
 use glam::Vec3;
 
-use super::{Digits, Meeting, Reading, Subject, number, vector};
+use super::wrap;
+use super::{Digits, Ink, Meeting, Reading, Subject, number, vector};
+use crate::method::format::Signs;
+use crate::method::trace::{Measured, ulps_text};
 use crate::method::{Class, Coefficients, Place, Precision, Solution};
 
 /// One line of a panel.
@@ -54,17 +57,56 @@ pub enum Role {
     Verdict(Class),
     /// Something is wrong.
     Warning,
+    /// A number that is another one than before.
+    Changed,
+    /// Where the person is in a list.
+    Current,
+    /// A part of a figure.
+    Ink(Ink),
 }
 
 impl Line {
-    fn new(spare: u8) -> Self {
+    pub(super) fn new(spare: u8) -> Self {
         Self {
             spans: Vec::new(),
             spare,
         }
     }
 
-    fn with(mut self, role: Role, text: impl Into<String>) -> Self {
+    /// Adds a character, to the last piece if that plays the same role.
+    pub(super) fn push(&mut self, role: Role, glyph: char) {
+        self.append(role, glyph.encode_utf8(&mut [0; 4]));
+    }
+
+    /// Adds text, to the last piece if that plays the same role.
+    pub(super) fn append(&mut self, role: Role, text: &str) {
+        match self.spans.last_mut() {
+            _ if text.is_empty() => {}
+            Some(last) if last.role == role => last.text.push_str(text),
+            _ => self.spans.push(Span {
+                text: text.to_owned(),
+                role,
+            }),
+        }
+    }
+
+    /// Leaves out what is beyond column `width`.
+    pub(super) fn cut(&mut self, width: usize) {
+        let mut room = width;
+        for span in &mut self.spans {
+            let end = span.text.char_indices().nth(room).map(|(at, _)| at);
+            span.text.truncate(end.unwrap_or(span.text.len()));
+            room -= span.text.chars().count();
+        }
+        self.spans.retain(|span| !span.text.is_empty());
+    }
+
+    /// A line of words that stays.
+    pub fn plain(text: impl Into<String>) -> Self {
+        Self::new(0).with(Role::Plain, text)
+    }
+
+    pub(super) fn with(mut self, role: Role, text: impl Into<String>) -> Self {
         self.spans.push(Span {
             text: text.into(),
             role,
@@ -73,7 +115,7 @@ impl Line {
     }
 
     /// Pads with blanks up to column `column`.
-    fn to(self, column: usize) -> Self {
+    pub(super) fn to(self, column: usize) -> Self {
         let gap = column.saturating_sub(self.width());
         self.with(Role::Plain, " ".repeat(gap))
     }
@@ -140,7 +182,7 @@ fn subject_lines(subject: &Subject, spheres: usize, width: usize, digits: Digits
     let why = subject.why.words();
     let room = width.saturating_sub(why.len() + 1);
     let title = clip(&title, room.max(12));
-    let radius = number(subject.sphere.radius.into(), true, digits);
+    let radius = number(subject.sphere.radius.into(), Precision::Binary32, digits);
     let room = width.saturating_sub(LABEL_WIDTH + RADIUS_LABEL.len() + radius.chars().count());
     vec![
         Line::new(1)
@@ -172,9 +214,8 @@ fn coefficient_lines(
         c,
         discriminant,
     } = subject.coefficients;
-    let single = precision == Precision::Binary32;
-    let show = |x: f64| number(x, single, digits);
-    let in_brackets = |x: f64, n: usize| bracketed(&number(x, single, Digits::Significant(n)));
+    let show = |x: f64| number(x, precision, digits);
+    let in_brackets = |x: f64, n: usize| bracketed(&number(x, precision, Digits::Significant(n)));
 
     let d = reading.ray.direction.to_array().map(f64::from);
     let o = (reading.ray.origin - subject.sphere.center)
@@ -217,7 +258,9 @@ fn coefficient_lines(
         ),
     ];
     let mut out = Vec::new();
-    for (label, formula, substituted, value) in rows {
+    let trace = &subject.trace;
+    let measured = [&trace.a, &trace.b, &trace.c, &trace.discriminant];
+    for ((label, formula, substituted, value), measured) in rows.into_iter().zip(measured) {
         out.push(
             Line::new(0)
                 .with(Role::Label, label)
@@ -231,9 +274,40 @@ fn coefficient_lines(
                 .to(SUBSTITUTED)
                 .with(Role::Faint, format!("= {substituted}")),
         );
+        out.extend(exact_line(measured, width));
     }
     out
 }
+
+/// What the number should be, and how far off it is; nothing if it is right.
+fn exact_line(measured: &Measured, width: usize) -> Option<Line> {
+    let ulps = measured.ulps().filter(|&ulps| ulps != 0.0)?;
+    let off = format!("  {} ulp", ulps_text(ulps, SIGNS));
+    let room = width.saturating_sub(SUBSTITUTED + "exactly ".len() + off.chars().count());
+    let exact = (4..=MOST_DIGITS)
+        .rev()
+        .filter_map(|digits| measured.exact_text(digits, SIGNS))
+        .find(|text| text.chars().count() <= room)
+        .or_else(|| measured.exact_text(3, SIGNS))?;
+    // A number that is merely rounded is no news; one that is further off is.
+    let (role, spare) = if ulps.abs() <= HALF_ULP {
+        (Role::Faint, 4)
+    } else if ulps.abs() < MANY_ULPS {
+        (Role::Faint, 1)
+    } else {
+        (Role::Warning, 0)
+    };
+    let text = format!("exactly {exact}{off}");
+    Some(Line::new(spare).to(SUBSTITUTED).with(role, text))
+}
+
+/// As many digits of an exact value as tell any two neighbours of binary64 apart.
+const MOST_DIGITS: usize = 17;
+/// The error of a number that is the exact value rounded once.
+const HALF_ULP: f64 = 0.5;
+const SIGNS: Signs = Signs::Typographic;
+/// From this error on, a third of the bits of a binary32 are gone.
+const MANY_ULPS: f64 = 256.0;
 
 /// Where values stand, their signs one to the left.
 const VALUE_COLUMN: usize = 19;
@@ -291,10 +365,17 @@ fn verdict_lines(subject: &Subject, width: usize, digits: Digits) -> Vec<Line> {
         Line::new(4),
         Line::new(0).with(Role::Verdict(class), clip(verdict, width)),
     ];
+    if let Some(wrong) = subject.trace.verdict(SIGNS) {
+        let lines = wrap(&wrong, width).into_iter();
+        out.extend(lines.map(|text| Line::new(0).with(Role::Warning, text)));
+    }
     if class.meets() {
-        let [near, far] = [near, far].map(|t| number(t.into(), true, digits));
+        let [near, far] = [near, far].map(|t| number(t.into(), Precision::Binary32, digits));
+        let exact = |m: &Option<Measured>| m.as_ref().and_then(|m| exact_line(m, width));
         out.push(root("near", "(−B − √Δ) / 2A", &near));
+        out.extend(exact(&subject.trace.near));
         out.push(root("far", "(−B + √Δ) / 2A", &far));
+        out.extend(exact(&subject.trace.far));
     }
     let words = match subject.solution.place() {
         Some(Place::Hit) => "hit: in front of the eye",
@@ -320,7 +401,11 @@ fn sight_lines(subject: &Subject, width: usize, digits: Digits) -> Vec<Line> {
         return Vec::new();
     };
     let in_room = |v| fitting_vector(v, width.saturating_sub(LABEL_WIDTH), digits);
-    let cosine = number(sight.cosine.into(), true, Digits::Significant(4));
+    let cosine = number(
+        sight.cosine.into(),
+        Precision::Binary32,
+        Digits::Significant(4),
+    );
     vec![
         labelled("p", &in_room(sight.point), 1),
         labelled("n", &in_room(sight.normal), 1),
@@ -354,7 +439,7 @@ fn meeting_lines(reading: &Reading, shown: usize, digits: Digits) -> Vec<Line> {
 
 fn meeting_line(meeting: &Meeting, shown: bool, spare: u8, digits: Digits) -> Line {
     let Solution { class, near, far } = meeting.solution;
-    let [near, far] = [near, far].map(|t| number(t.into(), true, digits));
+    let [near, far] = [near, far].map(|t| number(t.into(), Precision::Binary32, digits));
     let roots = if class == Class::Tangent {
         format!("t {near}")
     } else {

@@ -8,11 +8,16 @@ use super::command::Command;
 use super::document::{Change, Document};
 use super::mode::{Form, Mode, Purpose, Question};
 use super::motion;
+use super::panel::Panel;
 use crate::method::Method;
 use crate::render::{Style, View};
 use crate::scene::{Aim, Camera};
 
 impl Explorer {
+    #[expect(
+        clippy::too_many_lines,
+        reason = "one arm for each action, so that the compiler finds a missing one"
+    )]
     pub(super) fn act(&mut self, action: Action) {
         match action {
             Action::CursorLeft => self.move_cursor(-1, 0),
@@ -83,6 +88,23 @@ impl Explorer {
             Action::ScrollDown => self.scroll += 5,
             Action::ScrollUp => self.scroll = self.scroll.saturating_sub(5),
 
+            Action::PanelQuadratic => self.panel = Panel::Quadratic,
+            Action::PanelSteps => self.panel = Panel::Steps,
+            Action::PanelSlice => self.panel = Panel::Slice,
+            Action::PanelCurve => self.panel = Panel::Curve,
+            Action::PanelBits => self.panel = Panel::Bits,
+            Action::PanelCompare => self.panel = Panel::Compare,
+            Action::NextStep => self.next_step(),
+            Action::PreviousStep => self.go_to_step(self.step_at.saturating_sub(1)),
+            Action::FirstStep => self.go_to_step(0),
+            Action::LastStep => self.go_to_step(usize::MAX),
+            Action::Predict => self.toggle_prediction(),
+            Action::Board => self.board = !self.board,
+            Action::ScrubForward => self.scrub(1.0),
+            Action::ScrubBack => self.scrub(-1.0),
+            Action::ScrubHome => self.scrubbed = None,
+            Action::NextComparison => self.turn_comparison(),
+
             Action::Help => self.mode = Mode::Help { scroll: 0 },
             Action::CommandLine => self.prompt(Purpose::Command, ""),
             Action::Undo => self.travel(Document::undo, "Nothing to undo."),
@@ -122,6 +144,13 @@ impl Explorer {
             Command::Method(method) => self.options.method = method,
             Command::Style(style) => self.set_style(style),
             Command::View(view) => self.options.view = view,
+            Command::Panel(panel) => self.panel = panel,
+            Command::Step(name) => self.go_to_step_named(&name),
+            Command::At(t) => self.scrubbed = Some(t),
+            Command::Compare(method) => {
+                self.other_method = Some(method);
+                self.panel = Panel::Compare;
+            }
             Command::Cursor(x, y) => {
                 let size = self.size();
                 if x < size.width && y < size.height {
@@ -146,7 +175,7 @@ impl Explorer {
                 }
                 Err(refused) => self.warn(refused.to_string()),
             },
-            Command::Step(length) => self.set_step(length),
+            Command::Stride(length) => self.set_step(length),
             Command::Aspect(ratio) => self.set_aspect(ratio),
         }
     }
@@ -275,7 +304,7 @@ impl Explorer {
 }
 
 /// The value `by` places after `now` in the ring of all.
-fn turn<T: Copy + PartialEq>(all: &[T], now: T, by: usize) -> T {
+pub(super) fn turn<T: Copy + PartialEq>(all: &[T], now: T, by: usize) -> T {
     let at = all.iter().position(|&v| v == now).unwrap_or(0);
     all[(at + by) % all.len()]
 }

@@ -16,17 +16,20 @@ pub enum Group {
     Spheres,
     /// What the picture and the panel show.
     View,
+    /// Walking through the mathematics of one pixel.
+    Steps,
     /// Files, history, the program itself.
     Program,
 }
 
 impl Group {
     /// All groups, in the order of the help page.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Cursor,
         Self::Camera,
         Self::Spheres,
         Self::View,
+        Self::Steps,
         Self::Program,
     ];
 
@@ -37,6 +40,7 @@ impl Group {
             Self::Camera => "Camera",
             Self::Spheres => "Spheres",
             Self::View => "View",
+            Self::Steps => "Step by step",
             Self::Program => "Program",
         }
     }
@@ -194,6 +198,39 @@ actions! {
     /// scroll the panel up
     ScrollUp "scroll-up" ["pageup"] View;
 
+    /// panel: A, B, C and Δ
+    PanelQuadratic "panel-quadratic" ["1"] Steps;
+    /// panel: the derivation, a step at a time
+    PanelSteps "panel-steps" ["2"] Steps;
+    /// panel: the plane through ray and centre
+    PanelSlice "panel-slice" ["3"] Steps;
+    /// panel: the curve f(t) = At² + Bt + C
+    PanelCurve "panel-curve" ["4"] Steps;
+    /// panel: the bits of the step's number
+    PanelBits "panel-bits" ["5"] Steps;
+    /// panel: the chosen method beside another
+    PanelCompare "panel-compare" ["6"] Steps;
+    /// open the steps; go to the next one, or reveal its answer
+    NextStep "next-step" ["enter", "."] Steps;
+    /// previous step
+    PreviousStep "previous-step" ["backspace", ","] Steps;
+    /// first step
+    FirstStep "first-step" ["<"] Steps;
+    /// last step
+    LastStep "last-step" [">"] Steps;
+    /// predict, then reveal: hide each result until a key
+    Predict "predict" ["P"] Steps;
+    /// board: one step, large, for the back row
+    Board "board" ["O"] Steps;
+    /// scrub t forward along the ray
+    ScrubForward "scrub-forward" [")"] Steps;
+    /// scrub t back along the ray
+    ScrubBack "scrub-back" ["("] Steps;
+    /// t back to where something is seen
+    ScrubHome "scrub-home" ["/"] Steps;
+    /// compare with the next method
+    NextComparison "next-comparison" ["C"] Steps;
+
     /// this help
     Help "help" ["?", "f1"] Program;
     /// type a command by name; tab completes
@@ -234,13 +271,15 @@ pub const FOOTER: &[(&str, &str)] = &[
     ("arrows", "cursor"),
     ("wasd", "camera"),
     ("tab", "sphere"),
-    ("xyz", "move"),
+    ("enter", "steps"),
     ("v", "view"),
     ("m", "method"),
     (":", "command"),
     ("?", "help"),
     ("q", "quit"),
+    ("1-6", "panels"),
     ("b", "style"),
+    ("xyz", "move"),
     ("g", "grow"),
     ("t", "tangent"),
     ("n", "probe"),

@@ -6,6 +6,7 @@ use crate::scene::Builtin;
 
 use super::action::Action;
 use super::field::{Field, parse_number};
+use super::panel::Panel;
 
 /// A line that was understood.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,8 +31,16 @@ pub enum Command {
     Sphere(usize),
     /// Give a number a value.
     Set(Field, f32),
-    /// Make steps this long.
-    Step(f32),
+    /// Make steps of sphere and camera this long.
+    Stride(f32),
+    /// Show this panel.
+    Panel(Panel),
+    /// Go to the step of the derivation of that name or number.
+    Step(String),
+    /// Put the moving point of slice and curve at this t.
+    At(f64),
+    /// Compare with this method.
+    Compare(Method),
     /// Take cells to be this many times as high as wide.
     Aspect(f64),
 }
@@ -54,7 +63,15 @@ pub const WITH_ARGUMENT: &[(&str, &str, &str)] = &[
         "KEY VALUE",
         "give a number of the sphere or the camera a value",
     ),
-    ("step", "LENGTH", "make steps this long"),
+    ("panel", "NAME", "show this panel"),
+    ("step", "NAME", "go to the step of that name or number"),
+    (
+        "t",
+        "VALUE",
+        "put the moving point of slice and curve at this t",
+    ),
+    ("compare", "NAME", "compare with this method"),
+    ("stride", "LENGTH", "move and grow spheres by this much"),
     (
         "aspect",
         "RATIO",
@@ -88,7 +105,14 @@ impl Command {
                 _ => Err(format!("sphere: found “{rest}”, expected a number from 1")),
             },
             "set" => set(rest),
-            "step" => positive(rest, "step").map(Self::Step),
+            "stride" => positive(rest, "stride").map(Self::Stride),
+            "panel" => choice(rest, "panel", Panel::ALL, Panel::name).map(Self::Panel),
+            "step" => argument(rest, "step", "a step's name or number").map(Self::Step),
+            "t" => match parse_number("t", rest) {
+                Ok(t) => Ok(Self::At(t.into())),
+                Err(e) => Err(e.to_string()),
+            },
+            "compare" => choice(rest, "compare", Method::ALL, Method::name).map(Self::Compare),
             "aspect" => positive(rest, "aspect").map(|a| Self::Aspect(a.into())),
             "" => Err("Type a command; tab completes, esc leaves.".into()),
             _ if Action::by_name(name).is_some() => {
@@ -199,7 +223,8 @@ pub fn complete(line: &str) -> Vec<String> {
     };
     let head = format!("{name} ");
     let words = match name {
-        "method" => Method::ALL.iter().map(|m| m.name().to_owned()).collect(),
+        "panel" => Panel::ALL.iter().map(|p| p.name().to_owned()).collect(),
+        "method" | "compare" => Method::ALL.iter().map(|m| m.name().to_owned()).collect(),
         "style" => Style::ALL.iter().map(|s| s.name().to_owned()).collect(),
         "view" => View::ALL.iter().map(|v| v.name().to_owned()).collect(),
         "set" => Field::all_names(),

@@ -17,15 +17,15 @@ use crate::method::Place;
 use crate::render::Style;
 
 /// Writes text into cells: cut at the edge, spelt in the characters that there are.
-struct Pen<'a> {
-    buffer: &'a mut Buffer,
-    glyphs: Glyphs,
-    theme: Theme,
+pub(super) struct Pen<'a> {
+    pub(super) buffer: &'a mut Buffer,
+    pub(super) glyphs: Glyphs,
+    pub(super) theme: Theme,
 }
 
 impl Pen<'_> {
     /// Writes `text` from (x, y) in at most `room` columns; returns the column after it.
-    fn text(&mut self, x: u16, y: u16, room: u16, text: &str, style: CellStyle) -> u16 {
+    pub(super) fn text(&mut self, x: u16, y: u16, room: u16, text: &str, style: CellStyle) -> u16 {
         if !self.buffer.area.contains(Position::new(x, y)) {
             return x;
         }
@@ -39,7 +39,7 @@ impl Pen<'_> {
     }
 
     /// A border around `area` with a title in its upper and one in its lower edge.
-    fn frame(&mut self, area: Rect, title: &str, foot: &str) {
+    pub(super) fn frame(&mut self, area: Rect, title: &str, foot: &str) {
         if area.width < 2 || area.height < 2 {
             return;
         }
@@ -75,7 +75,7 @@ impl Pen<'_> {
     }
 
     /// Lines with roles, from the top of `area`.
-    fn lines(&mut self, area: Rect, lines: &[Line]) {
+    pub(super) fn lines(&mut self, area: Rect, lines: &[Line]) {
         for (y, line) in (area.top()..area.bottom()).zip(lines) {
             let mut x = area.x;
             for span in &line.spans {
@@ -123,6 +123,11 @@ impl Explorer {
             draw_help(&mut pen, body, scroll);
             return self.draw_footer(&mut pen, layout.footer);
         }
+        if self.board {
+            let body = layout.view.union(layout.panel).union(layout.strip);
+            self.draw_board(&mut pen, body);
+            return self.draw_footer(&mut pen, layout.footer);
+        }
         let cell = self.draw_view(&mut pen, layout.view);
         let field = match &self.mode {
             Mode::Form(_) if layout.panel.is_empty() => {
@@ -131,7 +136,7 @@ impl Explorer {
             }
             Mode::Form(_) => self.draw_form(&mut pen, layout.panel),
             _ => {
-                self.draw_panel(&mut pen, layout.panel);
+                self.draw_panels(&mut pen, layout.panel);
                 self.draw_strip(&mut pen, layout.strip);
                 None
             }
@@ -328,33 +333,6 @@ impl Explorer {
         pen.text(area.x, at.y, 1, side, style);
     }
 
-    fn draw_panel(&self, pen: &mut Pen<'_>, area: Rect) {
-        let Some(reading) = &self.picture.reading else {
-            return;
-        };
-        if area.is_empty() {
-            return;
-        }
-        let room = layout::inner(area);
-        let room = Rect {
-            x: room.x + 1,
-            width: room.width.saturating_sub(2),
-            ..room
-        };
-        let lines = explain::lines(reading, room.width.into(), self.digits());
-        let lines = explain::fit(lines, room.height.into());
-        let hidden = lines.len().saturating_sub(room.height.into());
-        let scroll = self.scroll.min(hidden);
-        let foot = match (scroll, hidden - scroll) {
-            (0, 0) => String::new(),
-            (_, 0) => format!("{scroll} lines above: pageup"),
-            (_, below) => format!("{below} lines below: pagedown"),
-        };
-        let (x, y) = self.cursor;
-        pen.frame(area, &format!("ray of pixel ({x}, {y})"), &foot);
-        pen.lines(room, &lines[scroll..]);
-    }
-
     /// A, B, C, Δ and what is seen, in one line.
     fn draw_strip(&self, pen: &mut Pen<'_>, area: Rect) {
         let subject = self
@@ -366,7 +344,7 @@ impl Explorer {
             return;
         };
         let c = subject.coefficients;
-        let show = |x: f64| explain::number(x, true, explain::Digits::Significant(4));
+        let show = |x: f64| explain::number(x, c.precision, explain::Digits::Significant(4));
         let place = subject.solution.place().map_or("", Place::name);
         let text = format!(
             "{} {place} Δ {} A {} B {} C {}",
@@ -424,7 +402,7 @@ impl Explorer {
 fn too_small(pen: &mut Pen<'_>, area: Rect) {
     let (cols, rows) = LEAST;
     let sentence = format!("rayscope needs {cols} columns and {rows} rows; q quits");
-    for (y, line) in (area.top()..area.bottom()).zip(wrap(&sentence, area.width.into())) {
+    for (y, line) in (area.top()..area.bottom()).zip(explain::wrap(&sentence, area.width.into())) {
         pen.text(area.x, y, area.width, &line, CellStyle::new());
     }
 }
@@ -437,7 +415,7 @@ fn draw_message(pen: &mut Pen<'_>, footer: Rect, message: &Message) {
         CellStyle::new()
     };
     let room = footer.width.saturating_sub(2);
-    let lines = wrap(&pen.glyphs.spell(&message.text), room.into());
+    let lines = explain::wrap(&pen.glyphs.spell(&message.text), room.into());
     let count = (lines.len() as u16).min(footer.y);
     let top = footer.bottom() - count;
     for (y, line) in (top..footer.bottom()).zip(&lines) {
@@ -445,23 +423,6 @@ fn draw_message(pen: &mut Pen<'_>, footer: Rect, message: &Message) {
         pen.buffer.set_string(footer.x, y, blank, Theme::plain());
         pen.text(footer.x + 1, y, room, line, style);
     }
-}
-
-/// The words of `text` in lines of at most `width` columns, where no word is longer than that.
-fn wrap(text: &str, width: usize) -> Vec<String> {
-    let mut lines = Vec::new();
-    let mut line = String::new();
-    for word in text.split_whitespace() {
-        if line.is_empty() {
-            word.clone_into(&mut line);
-        } else if line.width() + 1 + word.width() <= width {
-            line = format!("{line} {word}");
-        } else {
-            lines.push(std::mem::replace(&mut line, word.to_owned()));
-        }
-    }
-    lines.push(line);
-    lines
 }
 
 /// A line of the help page: a heading, or keys and what they do.

@@ -12,13 +12,17 @@ mod draw;
 mod field;
 mod files;
 mod key;
+mod large;
 mod layout;
 mod mode;
 mod motion;
+mod panel;
+mod panels;
 mod picture;
 mod prompt;
 mod saving;
 mod spheres;
+mod stepping;
 mod theme;
 
 use ratatui::crossterm::event::{Event, KeyEventKind};
@@ -31,9 +35,11 @@ use crate::scene::{Scene, Size, Source};
 use document::Document;
 use key::Key;
 use mode::{Message, Mode, Prompt, Purpose};
+use panel::Panel;
 use picture::Picture;
 use prompt::Line;
 use saving::FilePlace;
+use stepping::Prediction;
 
 /// How the explorer starts.
 #[derive(Debug, Clone, Copy)]
@@ -82,6 +88,17 @@ pub struct Explorer {
     usual_step: f32,
     full_digits: bool,
     scroll: usize,
+    /// The panel that the person asked for; others join it where there is room.
+    panel: Panel,
+    /// The step of the derivation that is shown.
+    step_at: usize,
+    prediction: Prediction,
+    /// One step is shown large, in the place of picture and panels.
+    board: bool,
+    /// t of the moving point; without it the point is where something is seen.
+    scrubbed: Option<f64>,
+    /// The method that the chosen one is compared with; without it, the next one.
+    other_method: Option<Method>,
     mode: Mode,
     message: Option<Message>,
     screen: (u16, u16),
@@ -108,6 +125,12 @@ impl Explorer {
             usual_step,
             full_digits: false,
             scroll: 0,
+            panel: Panel::default(),
+            step_at: 0,
+            prediction: Prediction::default(),
+            board: false,
+            scrubbed: None,
+            other_method: None,
             mode: Mode::Normal,
             message: None,
             screen: (0, 0),

@@ -117,6 +117,9 @@ impl Explorer {
         }
         match std::mem::replace(&mut self.mode, Mode::Normal) {
             Mode::Normal => {
+                if self.answer_prediction(key) {
+                    return;
+                }
                 if let Some(action) = Action::bound_to(key) {
                     self.act(action);
                 } else if !key.is("esc") {

@@ -1,7 +1,7 @@
 //! The picture and the reading under the cursor: made anew only when what they depend on changed.
 
 use super::{Explorer, Options, layout};
-use crate::explain::{Glyphs, Reading};
+use crate::explain::{Drawn, Glyphs, Reading, Step, derivation};
 use crate::method::Method;
 use crate::render::{Frame, Image, Look, View, fit};
 use crate::scene::{PixelShape, Rays, Scene, Size};
@@ -17,6 +17,10 @@ pub(super) struct Picture {
     pub(super) offset: (u32, u32),
     pub(super) reading: Option<Reading>,
     pub(super) reading_key: Option<ReadingKey>,
+    /// The derivation of the reading.
+    pub(super) steps: Vec<Step>,
+    /// Which of its results differ from those of the reading before.
+    pub(super) changed: Vec<bool>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -115,6 +119,32 @@ impl Explorer {
             self.chosen,
         ));
         self.picture.reading_key = Some(key);
+        self.derive();
+    }
+
+    /// Derives the reading anew and notes which results are other ones than before.
+    fn derive(&mut self) {
+        let Some(reading) = &self.picture.reading else {
+            return;
+        };
+        let (x, y) = self.cursor;
+        let (col, row) = self.options.style.cell_of_pixel(x, y);
+        let cell = self.picture.image.cell(col, row);
+        let drawn = Drawn {
+            brightness: self.picture.frame.brightness(x, y),
+            glyph: cell.map_or(' ', |c| c.glyph),
+            style: self.options.style.name(),
+            view: self.options.view.shown_in(self.options.style).name(),
+        };
+        let steps = derivation(reading, self.scene(), &self.picture.rays, &drawn);
+        let before = std::mem::take(&mut self.picture.steps);
+        let is_new = |step: &Step| {
+            let old = before.iter().find(|old| old.name == step.name);
+            !before.is_empty() && old.is_none_or(|old| old.result != step.result)
+        };
+        self.picture.changed = steps.iter().map(is_new).collect();
+        self.picture.steps = steps;
+        self.prediction.revealed = false;
     }
 }
 
@@ -130,6 +160,8 @@ impl Picture {
             offset: (0, 0),
             reading: None,
             reading_key: None,
+            steps: Vec::new(),
+            changed: Vec::new(),
         }
     }
 

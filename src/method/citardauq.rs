@@ -2,20 +2,17 @@
 //!
 //! It mends the roots; what A, b and C lost when they were rounded is lost.
 
-use super::number::{Input, Number, dot, sub};
-use super::q_form::roots;
+use super::number::{Input, Number};
+use super::q_form::{self, roots};
+use super::tape::Tape;
+use super::trace::{Line, Step, Steps};
+use super::truth::Truth;
 use super::{Class, Coefficients, Precision, Solution};
 use crate::geometry::{Ray, Sphere};
 
 /// Every quantity that the formula names, in the order of the mathematics.
-#[expect(dead_code, reason = "the traced run is to show them")]
 struct Quadratic<T> {
-    o: [T; 3],
-    a: T,
-    b: T,
-    oo: T,
-    rr: T,
-    c: T,
+    k: q_form::Coefficients<T>,
     bb: T,
     ac: T,
     /// D = Δ/4.
@@ -24,53 +21,77 @@ struct Quadratic<T> {
 
 #[inline]
 fn quadratic<T: Number>(input: &Input<T>) -> Quadratic<T> {
-    let Input { p0, d, center, r } = *input;
-
-    let o = sub(p0, center);
-    let a = dot(d, d);
-    let b = dot(d, o);
-    let oo = dot(o, o);
-    let rr = r * r;
-    let c = oo - rr;
-    let bb = b * b;
-    let ac = a * c;
+    let k = q_form::coefficients(input);
+    let bb = k.b * k.b;
+    let ac = k.a * k.c;
     let reduced = bb - ac;
-    Quadratic {
-        o,
-        a,
-        b,
-        oo,
-        rr,
-        c,
-        bb,
-        ac,
-        reduced,
-    }
+    Quadratic { k, bb, ac, reduced }
 }
 
 /// Class by the sign of D, roots by the q-form.
 pub(super) fn solve(ray: &Ray, sphere: &Sphere) -> Solution {
-    let Quadratic {
-        a, b, c, reduced, ..
-    } = quadratic(&Input::new(ray, sphere, |x| x));
+    let Quadratic { k, reduced, .. } = quadratic(&Input::new(ray, sphere, |x| x));
     let class = Class::of_discriminant(reduced.into());
     if !class.meets() {
         return Solution::without_roots(class);
     }
-    let roots = roots(a, b, c, reduced);
+    let roots = roots(k.a, k.b, k.c, reduced);
     Solution::with_roots(class, roots.near, roots.far)
 }
 
 /// A, B = 2b, C and Δ = 4D in binary32.
 pub(super) fn coefficients(ray: &Ray, sphere: &Sphere) -> Coefficients {
-    let Quadratic {
-        a, b, c, reduced, ..
-    } = quadratic(&Input::new(ray, sphere, |x| x));
+    let Quadratic { k, reduced, .. } = quadratic(&Input::new(ray, sphere, |x| x));
     Coefficients {
         precision: Precision::Binary32,
-        a: a.into(),
-        b: (2.0 * b).into(),
-        c: c.into(),
+        a: k.a.into(),
+        b: (2.0 * k.b).into(),
+        c: k.c.into(),
         discriminant: (4.0 * reduced).into(),
     }
+}
+
+/// The derivation, by the same code over a number that keeps record.
+pub(super) fn steps(ray: &Ray, sphere: &Sphere, truth: &Truth) -> Vec<Step> {
+    let tape = Tape::default();
+    let input = Input::new(ray, sphere, |x| tape.input(x));
+    let mut steps = Steps::new(&tape, &input);
+    let quadratic = quadratic(&input);
+    let k = &quadratic.k;
+    q_form::coefficient_steps(&mut steps, k);
+    steps.scalar(
+        Line {
+            symbol: "b²",
+            formula: "b·b",
+            template: "{b}²",
+            code: "let bb = k.b * k.b;",
+            why: "The first half of the discriminant.",
+        },
+        quadratic.bb,
+    );
+    steps.scalar(
+        Line {
+            symbol: "AC",
+            formula: "A·C",
+            template: "{A}·{C}",
+            code: "let ac = k.a * k.c;",
+            why: "The second half: below 0 if the ray starts inside.",
+        },
+        quadratic.ac,
+    );
+    steps.scalar(
+        Line {
+            symbol: "D",
+            formula: "b² − AC",
+            template: "{b²} − {AC}",
+            code: "let reduced = bb - ac;",
+            why: "The discriminant, Δ/4: its sign says whether the line meets the sphere.",
+        },
+        quadratic.reduced,
+    );
+    if Class::of_discriminant(quadratic.reduced.value().into()).meets() {
+        let roots = roots(k.a, k.b, k.c, quadratic.reduced);
+        q_form::root_steps(&mut steps, &roots, ["near", "far"], truth);
+    }
+    steps.finish()
 }

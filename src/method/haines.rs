@@ -2,22 +2,23 @@
 //! line passes from the centre, against the radius. It keeps far spheres.
 
 use super::number::{Input, Number, dot, scale, sub};
-use super::q_form::roots;
+use super::q_form::{self, roots};
+use super::tape::Tape;
+use super::trace::{Line, Step, Steps};
+use super::truth::Truth;
 use super::{Class, Coefficients, Precision, Solution};
 use crate::geometry::{Ray, Sphere};
 
 /// Every quantity that the formula names, in the order of the mathematics.
-#[expect(dead_code, reason = "the traced run is to show them")]
 struct Quadratic<T> {
-    o: [T; 3],
-    a: T,
-    b: T,
-    oo: T,
-    rr: T,
-    c: T,
+    k: q_form::Coefficients<T>,
+    /// b/A: minus the t at which the line comes closest to the centre.
     foot: T,
+    /// From the centre to that closest point.
     l: [T; 3],
+    /// The square of its length.
     ll: T,
+    /// r² less that: half the chord, squared.
     h: T,
     /// D = Δ/4.
     reduced: T,
@@ -25,26 +26,14 @@ struct Quadratic<T> {
 
 #[inline]
 fn quadratic<T: Number>(input: &Input<T>) -> Quadratic<T> {
-    let Input { p0, d, center, r } = *input;
-
-    let o = sub(p0, center);
-    let a = dot(d, d);
-    let b = dot(d, o);
-    let oo = dot(o, o);
-    let rr = r * r;
-    let c = oo - rr;
-    let foot = b / a;
-    let l = sub(o, scale(foot, d));
+    let k = q_form::coefficients(input);
+    let foot = k.b / k.a;
+    let l = sub(k.o, scale(foot, input.d));
     let ll = dot(l, l);
-    let h = rr - ll;
-    let reduced = a * h;
+    let h = k.rr - ll;
+    let reduced = k.a * h;
     Quadratic {
-        o,
-        a,
-        b,
-        oo,
-        rr,
-        c,
+        k,
         foot,
         l,
         ll,
@@ -55,27 +44,88 @@ fn quadratic<T: Number>(input: &Input<T>) -> Quadratic<T> {
 
 /// Class by the sign of D = A(r² − ‖l‖²), roots by the q-form.
 pub(super) fn solve(ray: &Ray, sphere: &Sphere) -> Solution {
-    let Quadratic {
-        a, b, c, reduced, ..
-    } = quadratic(&Input::new(ray, sphere, |x| x));
+    let Quadratic { k, reduced, .. } = quadratic(&Input::new(ray, sphere, |x| x));
     let class = Class::of_discriminant(reduced.into());
     if !class.meets() {
         return Solution::without_roots(class);
     }
-    let roots = roots(a, b, c, reduced);
+    let roots = roots(k.a, k.b, k.c, reduced);
     Solution::with_roots(class, roots.near, roots.far)
 }
 
 /// A, B = 2b, C and Δ = 4D in binary32, D being A(r² − ‖l‖²): C does not enter Δ here.
 pub(super) fn coefficients(ray: &Ray, sphere: &Sphere) -> Coefficients {
-    let Quadratic {
-        a, b, c, reduced, ..
-    } = quadratic(&Input::new(ray, sphere, |x| x));
+    let Quadratic { k, reduced, .. } = quadratic(&Input::new(ray, sphere, |x| x));
     Coefficients {
         precision: Precision::Binary32,
-        a: a.into(),
-        b: (2.0 * b).into(),
-        c: c.into(),
+        a: k.a.into(),
+        b: (2.0 * k.b).into(),
+        c: k.c.into(),
         discriminant: (4.0 * reduced).into(),
     }
+}
+
+/// The derivation, by the same code over a number that keeps record.
+pub(super) fn steps(ray: &Ray, sphere: &Sphere, truth: &Truth) -> Vec<Step> {
+    let tape = Tape::default();
+    let input = Input::new(ray, sphere, |x| tape.input(x));
+    let mut steps = Steps::new(&tape, &input);
+    let quadratic = quadratic(&input);
+    let k = &quadratic.k;
+    q_form::coefficient_steps(&mut steps, k);
+    steps.scalar(
+        Line {
+            symbol: "b/A",
+            formula: "b/A",
+            template: "{b} / {A}",
+            code: "let foot = k.b / k.a;",
+            why: "Less its sign, the t at which the line comes closest to the centre.",
+        },
+        quadratic.foot,
+    );
+    steps.vector(
+        Line {
+            symbol: "l",
+            formula: "o − (b/A)d",
+            template: "{o} − {b/A}·{d}",
+            code: "let l = sub(k.o, scale(foot, input.d));",
+            why: "From the centre to that closest point.",
+        },
+        quadratic.l,
+    );
+    steps.scalar(
+        Line {
+            symbol: "‖l‖²",
+            formula: "l·l",
+            template: "{l.x}² + {l.y}² + {l.z}²",
+            code: "let ll = dot(l, l);",
+            why: "How far the line passes from the centre, squared.",
+        },
+        quadratic.ll,
+    );
+    steps.scalar(
+        Line {
+            symbol: "r² − ‖l‖²",
+            formula: "r² − ‖l‖²",
+            template: "{r²} − {‖l‖²}",
+            code: "let h = k.rr - ll;",
+            why: "Half the chord, squared: below 0 if the line passes farther away than r.",
+        },
+        quadratic.h,
+    );
+    steps.scalar(
+        Line {
+            symbol: "D",
+            formula: "A(r² − ‖l‖²)",
+            template: "{A}·{r² − ‖l‖²}",
+            code: "let reduced = k.a * h;",
+            why: "The discriminant, Δ/4: its sign says whether the line meets the sphere.",
+        },
+        quadratic.reduced,
+    );
+    if Class::of_discriminant(quadratic.reduced.value().into()).meets() {
+        let roots = roots(k.a, k.b, k.c, quadratic.reduced);
+        q_form::root_steps(&mut steps, &roots, ["near", "far"], truth);
+    }
+    steps.finish()
 }

@@ -7,16 +7,20 @@ mod citardauq;
 mod double;
 mod dyadic;
 pub mod exact;
+pub mod format;
 mod haines;
 mod kahan;
 mod number;
 mod q_form;
 mod surd;
+mod tape;
 mod textbook;
+pub mod trace;
 mod truth;
 
 pub use dyadic::Dyadic;
 pub use surd::{Digits, Surd};
+pub use trace::Trace;
 pub use truth::{Truth, ulp_error};
 
 use std::fmt;
@@ -90,6 +94,22 @@ impl Method {
             Self::Kahan => kahan::coefficients(ray, sphere),
             Self::Double => double::coefficients(ray, sphere),
             Self::Exact => exact::coefficients(ray, sphere),
+        }
+    }
+
+    /// How this method comes to its answer, step by step, beside what is exact.
+    pub fn trace(self, ray: &Ray, sphere: &Sphere) -> Trace {
+        Trace::new(self, ray, sphere)
+    }
+
+    fn steps(self, ray: &Ray, sphere: &Sphere, truth: &Truth) -> Vec<trace::Step> {
+        match self {
+            Self::Textbook => textbook::steps(ray, sphere, truth),
+            Self::Citardauq => citardauq::steps(ray, sphere, truth),
+            Self::Haines => haines::steps(ray, sphere, truth),
+            Self::Kahan => kahan::steps(ray, sphere, truth),
+            Self::Double => double::steps(ray, sphere, truth),
+            Self::Exact => trace::exact::steps(ray, sphere, truth),
         }
     }
 }

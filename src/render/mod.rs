@@ -15,5 +15,6 @@ mod view;
 pub use color::{AnsiColor, ColorDepth, color_of};
 pub use frame::{Contact, Frame, Hit};
 pub use image::{Cell, Image, Look};
+pub use shade::headlight;
 pub use style::{CELL_ASPECT, Style, fit};
 pub use view::View;

@@ -24,7 +24,7 @@ pub(super) fn brightness(ray: &Ray, sphere: &Sphere, t: f32, light: Option<Light
 }
 
 /// cos θ = √(Δ/(4Ar²)): since t solves the quadratic, √Δ = |2At + B|, so cos θ = |At + b|/(√A·r).
-fn headlight(ray: &Ray, sphere: &Sphere, t: f32) -> f64 {
+pub fn headlight(ray: &Ray, sphere: &Sphere, t: f32) -> f64 {
     let d = ray.direction.as_dvec3();
     let o = ray.origin.as_dvec3() - sphere.center.as_dvec3();
     let a = d.dot(d);

@@ -63,6 +63,16 @@ impl Camera {
                     let found = format!("[{}, {}]", extent[0], extent[1]);
                     return Err(Invalid::new("extent", found, "two finite numbers above 0"));
                 }
+                // Whatever the shape of its room, a picture shows less than this many times as much.
+                let reach = f64::from(Size::LARGEST) * f64::from(extent[0].max(extent[1]));
+                if self.position.as_dvec3().abs().max_element() + reach > f64::from(f32::MAX) {
+                    let found = format!("[{}, {}]", extent[0], extent[1]);
+                    return Err(Invalid::new(
+                        "extent",
+                        found,
+                        "a window whose rays all start within binary32's ±3.4028235e38",
+                    ));
+                }
             }
             Projection::Perspective { field_of_view } => {
                 if !(field_of_view > 0.0 && field_of_view < 180.0) {

@@ -20,7 +20,7 @@ use super::value::{self, Number, Refused};
 use super::{Aim, Body, Camera, Light, Probe, Projection, Scene, Size};
 use crate::geometry::Sphere;
 
-/// The largest scene file that is read, in bytes; a million spheres need about a quarter of it.
+/// The largest scene file that is read, in bytes; a million spheres need about a third of it.
 pub const LARGEST_FILE: u64 = 256 << 20;
 
 /// A scene file that could not be read, or is no scene: one sentence when displayed.
@@ -88,12 +88,6 @@ impl Scene {
             problem,
         };
         let bytes = read_bounded(path).map_err(|error| whole(in_words(&error)))?;
-        if bytes.len() as u64 > LARGEST_FILE {
-            return Err(whole(format!(
-                "found a file of more than {} MiB, expected a scene file of at most that size",
-                LARGEST_FILE >> 20
-            )));
-        }
         match str::from_utf8(&bytes) {
             Ok(text) => Self::parse(text, &name),
             Err(error) => Err(FileError {
@@ -107,23 +101,31 @@ impl Scene {
     }
 }
 
-/// Reads at most one byte more than the limit.
+/// The bytes of a file, unless they are too many; what is no file on a disk has no size to ask for.
 fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
+    let file = File::open(path)?;
     let mut bytes = Vec::new();
-    File::open(path)?
-        .take(LARGEST_FILE + 1)
-        .read_to_end(&mut bytes)?;
-    Ok(bytes)
+    if file.metadata()?.len() <= LARGEST_FILE {
+        file.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
+        if bytes.len() as u64 <= LARGEST_FILE {
+            return Ok(bytes);
+        }
+    }
+    Err(io::ErrorKind::FileTooLarge.into())
 }
 
 fn in_words(error: &io::Error) -> String {
     match error.kind() {
-        io::ErrorKind::NotFound => "there is no such file, expected a scene file".to_owned(),
+        io::ErrorKind::NotFound => "found no such file, expected a scene file".to_owned(),
         io::ErrorKind::IsADirectory => "found a directory, expected a scene file".to_owned(),
         io::ErrorKind::PermissionDenied => {
-            "the file may not be read, expected a scene file".to_owned()
+            "found a file that may not be read, expected a scene file".to_owned()
         }
-        _ => format!("the file cannot be read: {error}"),
+        io::ErrorKind::FileTooLarge => format!(
+            "found more than {0} MiB, expected a scene file of at most {0} MiB",
+            LARGEST_FILE >> 20
+        ),
+        _ => format!("this file cannot be read: {error}"),
     }
 }
 
@@ -264,7 +266,7 @@ impl<'a, 't> Section<'a, 't> {
         let Some(key) = unknown else { return Ok(()) };
         let word = key.get_ref().as_ref();
         let expected = match value::nearest(word, known.iter().copied()) {
-            Some(meant) => format!("a key of the format, perhaps {meant}"),
+            Some(meant) => format!("perhaps {meant}"),
             None => format!("one of the keys {}", known.join(", ")),
         };
         let refused = Refused::new(format!("the unknown key {}", value::quoted(word)), expected);
@@ -358,11 +360,13 @@ fn number(value: &Value, kind: Number) -> Result<f32, Refused> {
         DeValue::Float(digits) => kind.read(digits.as_str()),
         DeValue::Integer(digits) if digits.radix() == 10 => kind.read(digits.as_str()),
         DeValue::Integer(digits) => {
-            match u128::from_str_radix(digits.as_str(), digits.radix()) {
-                // A conversion of integers, too, rounds once.
-                Ok(whole) => kind.check(whole as f32),
-                Err(_) => kind.check(f32::INFINITY),
+            // A conversion from integers, too, rounds once.
+            let found = u128::from_str_radix(digits.as_str(), digits.radix())
+                .map_or(f32::INFINITY, |whole| whole as f32);
+            if found.is_infinite() {
+                return Err(Refused::new(kind_of(value), value::WITHIN_RANGE));
             }
+            kind.check(found)
         }
         _ => Err(Refused::new(kind_of(value), kind.expected())),
     }
@@ -410,10 +414,7 @@ struct Reader {
 impl Reader {
     /// Reads one piece, which begins at byte `base` of the file.
     fn read(&mut self, piece: &str, base: usize) -> Result<(), Fault> {
-        let root = DeTable::parse(piece).map_err(|error| Fault {
-            at: Some(base + error.span().map_or(0, |span| span.start)),
-            problem: format!("this is not TOML: {}", error.message()),
-        })?;
+        let root = DeTable::parse(piece).map_err(|error| no_toml(&error, piece, base))?;
         let root = Section {
             place: Place::Top,
             at: base,
@@ -469,6 +470,18 @@ impl Reader {
             light: self.light,
             probes: self.probes.into_iter().map(|(probe, _)| probe).collect(),
         })
+    }
+}
+
+fn no_toml(error: &toml::de::Error, piece: &str, base: usize) -> Fault {
+    let span = error.span().unwrap_or_default();
+    let near = match piece.get(span.clone()).map(str::trim) {
+        None | Some("") => String::new(),
+        Some(text) => format!(" at {}", value::quoted(text)),
+    };
+    Fault {
+        at: Some(base + span.start),
+        problem: format!("this is not TOML{near}: {}", error.message()),
     }
 }
 
@@ -649,5 +662,62 @@ fn check_pixel(aim: Aim, pixels: Option<Size>) -> Result<(), Refused> {
             format!("x below {width} and y below {height}, the pixels of the camera"),
         )),
         Some(_) => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DOCS: &str = include_str!("../../docs/scenes.md");
+
+    #[test]
+    fn the_docs_name_every_key_and_limit() {
+        use Place::{Camera, Light, Probe, Sphere, Top};
+        for place in [Top, Camera, Light, Sphere(1), Probe(1)] {
+            for key in place.keys() {
+                let spellings = [
+                    format!("`{key}`"),
+                    format!("`[{key}]`"),
+                    format!("`[[{key}]]`"),
+                ];
+                assert!(spellings.iter().any(|s| DOCS.contains(s)), "{key}");
+            }
+        }
+        for limit in [
+            format!("{} MiB", LARGEST_FILE >> 20),
+            format!("1 to {}", Size::LARGEST),
+            format!("| {FIELD_OF_VIEW} |"),
+        ] {
+            assert!(DOCS.contains(&limit), "{limit}");
+        }
+    }
+
+    #[test]
+    fn the_examples_of_the_docs_are_scenes() {
+        let mut examples = 0;
+        for block in DOCS.split("```toml\n").skip(1) {
+            let text = block.split("```").next().unwrap();
+            Scene::parse(text, "docs/scenes.md").unwrap();
+            examples += 1;
+        }
+        assert!(examples >= 2);
+    }
+
+    #[test]
+    fn a_long_file_is_cut_between_spheres_and_nowhere_else() {
+        let sphere = "\n[[sphere]]\nname = \"\"\"\n[[sphere]]\n\"\"\"\n";
+        let text = format!("[x]{}", sphere.repeat(1000));
+        let cut: Vec<_> = pieces(&text).collect();
+        assert_eq!(cut.len(), 4);
+        for piece in &cut[1..] {
+            assert!(text[piece.clone()].starts_with("[[sphere]]\nname"));
+        }
+        let joined: String = cut.iter().map(|piece| &text[piece.clone()]).collect();
+        assert_eq!(joined, text);
+
+        // A list left open holds all that follows.
+        let text = format!("x = [\n{text}");
+        assert_eq!(pieces(&text).count(), 1);
     }
 }

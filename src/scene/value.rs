@@ -51,10 +51,11 @@ pub enum Number {
 }
 
 impl Number {
-    /// Reads a decimal, rounded once to binary32.
+    /// Reads a decimal, rounded once to binary32; a minus sign may be the mathematical one.
     pub fn read(self, text: &str) -> Result<f32, Refused> {
         let text = text.trim();
         let value: f32 = text
+            .replace('−', "-")
             .parse()
             .map_err(|_| Refused::new(quoted(text), self.expected()))?;
         let has_digits = text.contains(|c: char| c.is_ascii_digit());
@@ -91,7 +92,9 @@ impl Number {
     }
 }
 
-const WITHIN_RANGE: &str = "a number that binary32 can hold, at most 3.4028235e38 in size";
+/// What is expected of a number that rounds to an infinity.
+pub(super) const WITHIN_RANGE: &str =
+    "a number that binary32 can hold, at most 3.4028235e38 in size";
 
 /// Reads three coordinates, parted by commas or blanks, with or without square brackets.
 pub fn vector(text: &str) -> Result<Vec3, Refused> {
@@ -168,4 +171,105 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .filter(|(likeness, _)| *likeness >= ALIKE)
         .max_by(|(a, _), (b, _)| a.total_cmp(b))
         .map(|(_, candidate)| candidate)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_decimal_is_rounded_once() {
+        // Just above the middle of two neighbours; rounded to binary64 it is the middle, and that
+        // goes to the even neighbour below.
+        let text = "1.00000005960464477540";
+        assert_eq!(Number::Coordinate.read(text), Ok(1.0 + f32::EPSILON));
+        assert_eq!(text.parse::<f64>().unwrap() as f32, 1.0);
+    }
+
+    #[test]
+    fn numbers_are_read_as_people_type_them() {
+        for (text, value) in [(" 3 ", 3.0), ("−2.5", -2.5), (".5", 0.5), ("1e-3", 0.001)] {
+            assert_eq!(Number::Coordinate.read(text), Ok(value), "{text}");
+        }
+    }
+
+    #[test]
+    fn each_kind_of_number_says_what_it_may_be() {
+        use Number::{Coordinate, Extent, FieldOfView, Radius};
+        for (kind, text, sentence) in [
+            (Coordinate, "", "found \"\", expected a finite number"),
+            (Coordinate, "1,5", "found \"1,5\", expected a finite number"),
+            (Coordinate, "NaN", "found NaN, expected a finite number"),
+            (
+                Radius,
+                "-3",
+                "found -3, expected a finite number of zero or more",
+            ),
+            (
+                Radius,
+                "inf",
+                "found inf, expected a finite number of zero or more",
+            ),
+            (Extent, "0", "found 0, expected a finite number above 0"),
+            (
+                FieldOfView,
+                "180",
+                "found 180, expected an angle in degrees above 0 and below 180",
+            ),
+            (
+                Radius,
+                "1e39",
+                "found 1e39, expected a number that binary32 can hold, at most 3.4028235e38 in size",
+            ),
+        ] {
+            assert_eq!(kind.read(text).unwrap_err().to_string(), sentence);
+        }
+    }
+
+    #[test]
+    fn a_vector_is_three_numbers_in_any_of_the_usual_spellings() {
+        for text in ["1, -2, 0.5", "[1, -2, 0.5]", "1 −2  .5"] {
+            assert_eq!(vector(text), Ok(Vec3::new(1.0, -2.0, 0.5)), "{text}");
+        }
+        assert_eq!(
+            vector("1, 2").unwrap_err().to_string(),
+            "found \"1, 2\", expected three finite numbers, x, y, z"
+        );
+        assert_eq!(
+            vector("1, nan, 2").unwrap_err().to_string(),
+            "found nan, expected a finite number"
+        );
+    }
+
+    #[test]
+    fn a_colour_is_six_hexadecimal_digits() {
+        assert_eq!(color("#E69f00"), Ok(Rgb(0xe6, 0x9f, 0)));
+        for text in [
+            "e69f00",
+            "#e69f0",
+            "#e69f00ff",
+            "#e69f0g",
+            "#+69f00",
+            "#é9f0",
+        ] {
+            assert!(color(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_line_has_nothing_that_a_terminal_acts_on() {
+        assert_eq!(line("−B ± √Δ"), Ok("−B ± √Δ"));
+        assert_eq!(
+            line("\u{1b}[2J").unwrap_err().to_string(),
+            "found the control character U+001B, expected text without control characters"
+        );
+    }
+
+    #[test]
+    fn a_misspelt_word_finds_its_neighbour_and_nonsense_none() {
+        let words = ["center", "radius", "color"];
+        assert_eq!(nearest("colour", words), Some("color"));
+        assert_eq!(nearest("raduis", words), Some("radius"));
+        assert_eq!(nearest("xyz", words), None);
+    }
 }

@@ -141,3 +141,32 @@ impl fmt::Display for Quoted<'_> {
         f.write_char('"')
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decimals_are_short_and_plain_where_that_is_short() {
+        for (value, text) in [
+            (10.0, "10"),
+            (-0.1, "-0.1"),
+            (16_777_216.0, "16777216"),
+            (0.0, "0"),
+            (-0.0, "-0.0"),
+            (1e-5, "0.00001"),
+            (1e-7, "1e-7"),
+            (1e30, "1e30"),
+            (-f32::MAX, "-3.4028235e38"),
+            (f32::from_bits(1), "1e-45"),
+        ] {
+            assert_eq!(Decimal(value).to_string(), text);
+        }
+    }
+
+    #[test]
+    fn strings_are_escaped() {
+        let quoted = Quoted("a \"b\" \\ √\n\u{7f}").to_string();
+        assert_eq!(quoted, r#""a \"b\" \\ √\u000A\u007F""#);
+    }
+}

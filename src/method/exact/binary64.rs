@@ -6,9 +6,13 @@
 use super::error_free::{two_difference, two_square, two_sum};
 use super::real::Real;
 use crate::geometry::{Ray, Sphere};
+use crate::method::Class;
 
 /// u = 2⁻⁵³, the unit roundoff of binary64.
 pub const U: f64 = f64::EPSILON / 2.0;
+
+/// ε = 2⁻³⁶: how far a direct root may be from the exact one, relatively, where it is certain.
+pub const DIRECT_ERROR: f64 = 131_072.0 * U;
 
 /// One ray and one sphere, or several in lanes: binary32 numbers held in binary64.
 #[derive(Debug, Clone, Copy)]
@@ -53,6 +57,102 @@ pub struct Discriminant<T> {
     pub d_error: T,
 }
 
+/// D by Lagrange's identity, A r² − |o × d|².
+#[inline(always)]
+pub fn discriminant<T: Real>(input: &Input<T>) -> Discriminant<T> {
+    let Input { p0, d, center, r } = *input;
+    let o = [p0[0] - center[0], p0[1] - center[1], p0[2] - center[2]];
+    let a = dot(d, d);
+    let k = cross(o, d);
+
+    let ar2 = a * (r * r);
+    let k2 = dot(k, k);
+    let length = (o[0].abs() + o[1].abs()) + o[2].abs();
+    let spread = (T::of(13.0 * U) * r + T::of(6.0 * U) * length) * (r + T::of(11.0 * U) * length);
+    Discriminant {
+        o,
+        a,
+        ar2,
+        k2,
+        d: ar2 - k2,
+        d_error: a * spread,
+    }
+}
+
+impl Discriminant<f64> {
+    /// The class, if D is farther from zero than four times its error.
+    #[inline(always)]
+    pub fn class(&self) -> Option<Class> {
+        let threshold = 4.0 * self.d_error;
+        if self.d > threshold {
+            Some(Class::Secant)
+        } else if self.d < -threshold {
+            Some(Class::Miss)
+        } else {
+            None
+        }
+    }
+
+    /// Whether the numbers were finite and d was not zero.
+    pub fn is_of_ray_and_sphere(&self) -> bool {
+        self.d_error.is_finite() && self.a > 0.0
+    }
+}
+
+/// Both roots by (−b ± s)/A, times 1 − ε and 1 + ε.
+///
+/// With 29 bits more than the answer needs, this form is good enough unless a root is all but zero
+/// or the roots all but meet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Direct<T> {
+    /// b = B/2 = o·d.
+    pub half_b: T,
+    /// s = √D.
+    pub s: T,
+    /// The smaller root times 1 − ε and 1 + ε.
+    pub near: [T; 2],
+    /// The larger root times 1 − ε and 1 + ε.
+    pub far: [T; 2],
+    /// What the error of D must stay below for both roots to be within ε of themselves.
+    pub d_error_limit: T,
+}
+
+/// Both roots by (−b ± s)/A: one square root, and one division that need not wait for it.
+#[inline(always)]
+pub fn direct<T: Real>(input: &Input<T>, discriminant: &Discriminant<T>) -> Direct<T> {
+    let Discriminant { o, a, d, .. } = *discriminant;
+    let half_b = dot(o, input.d);
+    let inverse = T::of(1.0) / a;
+    let less = T::of(1.0 - DIRECT_ERROR) * inverse;
+    let more = T::of(1.0 + DIRECT_ERROR) * inverse;
+
+    let s = d.sqrt();
+    let near = -half_b - s;
+    let far = s - half_b;
+    Direct {
+        half_b,
+        s,
+        near: [near * less, near * more],
+        far: [far * less, far * more],
+        d_error_limit: T::of(DIRECT_ERROR / 2.0) * (s * (half_b.abs() - s).abs()),
+    }
+}
+
+impl Direct<f64> {
+    /// Both roots with bounds on their errors, which are infinite where nothing is certain.
+    pub fn roots(&self, discriminant: &Discriminant<f64>) -> [Bounded<f64>; 2] {
+        let certain = discriminant.d_error < self.d_error_limit;
+        [self.near, self.far].map(|[less, more]| Bounded {
+            value: f64::midpoint(less, more),
+            error: if certain {
+                (more - less).abs() / 2.0
+            } else {
+                f64::INFINITY
+            },
+        })
+    }
+}
+
 /// A, b, C and D with bounds on the errors of the last three; A is good to 2u of itself.
 ///
 /// Each stage fills one in, and [`roots`] takes it from there.
@@ -70,7 +170,7 @@ pub struct Estimate<T> {
     pub c_error: T,
     /// D = Δ/4.
     pub d: T,
-    /// How far D may be from its exact value: at most D/4.
+    /// How far D may be from its exact value.
     pub d_error: T,
 }
 
@@ -83,79 +183,45 @@ pub struct Bounded<T> {
     pub error: T,
 }
 
-/// Both roots by q = −(b + sign(b) s), and what they come from.
+/// Both roots by q = b + sign(b) s, with bounds on their errors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Roots<T> {
-    /// s = √D.
+    /// s = √D with the sign of b.
     pub s: T,
-    /// Q = |b| + s, the magnitude of q.
+    /// q = b + s.
     pub q: T,
+    /// q/A: one root is −q/A, the one farther from zero.
+    pub great: Bounded<T>,
+    /// C/q: the other root is −C/q.
+    pub small: Bounded<T>,
+}
+
+impl Roots<f64> {
     /// The smaller root.
-    pub near: Bounded<T>,
+    pub fn near(&self) -> Bounded<f64> {
+        if self.q < 0.0 { self.small } else { self.great }.negated()
+    }
+
     /// The larger root.
-    pub far: Bounded<T>,
-}
-
-impl Discriminant<f64> {
-    /// Whether the numbers were finite and d was not zero.
-    pub fn is_of_ray_and_sphere(&self) -> bool {
-        self.d_error.is_finite() && self.a > 0.0
+    pub fn far(&self) -> Bounded<f64> {
+        if self.q < 0.0 { self.great } else { self.small }.negated()
     }
 }
 
-/// D by Lagrange's identity, A r² − |o × d|².
-#[inline(always)]
-pub fn discriminant<T: Real>(input: &Input<T>) -> Discriminant<T> {
-    let Input { p0, d, center, r } = *input;
-    let o = [p0[0] - center[0], p0[1] - center[1], p0[2] - center[2]];
-    let a = dot(d, d);
-    let k = cross(o, d);
-
-    let ar2 = a * (r * r);
-    let k2 = dot(k, k);
-    let length = (o[0].abs() + o[1].abs()) + o[2].abs();
-    let spread = r * (T::of(13.0) * r + T::of(6.0) * length) + T::of(64.0 * U) * (length * length);
-    Discriminant {
-        o,
-        a,
-        ar2,
-        k2,
-        d: ar2 - k2,
-        d_error: a * (T::of(U) * spread),
+impl Bounded<f64> {
+    fn negated(self) -> Self {
+        Self {
+            value: -self.value,
+            error: self.error,
+        }
     }
 }
 
-/// b and C, which the roots need beside the discriminant; C plain, not compensated.
+/// b, and C with the rounding errors of differences, squares and sums added back: for rays that
+/// start so near the surface that the plain C cancels.
 #[inline(always)]
-pub fn estimate<T: Real>(input: &Input<T>, discriminant: &Discriminant<T>) -> Estimate<T> {
-    let Input { d, r, .. } = *input;
-    let Discriminant {
-        o,
-        a,
-        d: quarter_discriminant,
-        d_error,
-        ..
-    } = *discriminant;
-    let terms = [o[0] * d[0], o[1] * d[1], o[2] * d[2]];
-    let magnitude = (terms[0].abs() + terms[1].abs()) + terms[2].abs();
-    let o2 = dot(o, o);
-    let c = o2 - r * r;
-    Estimate {
-        a,
-        half_b: (terms[0] + terms[1]) + terms[2],
-        half_b_error: T::of(4.25 * U) * magnitude,
-        c,
-        c_error: T::of(U) * (T::of(6.0) * o2 + T::of(2.0) * c.abs()),
-        d: quarter_discriminant,
-        d_error,
-    }
-}
-
-/// C with the rounding errors of differences, squares and sums added back, for rays that start so
-/// near the surface that the plain C cancels; with a bound on its error.
-#[inline(always)]
-pub fn compensated_c<T: Real>(input: &Input<T>) -> (T, T) {
-    let Input { p0, center, r, .. } = *input;
+pub fn compensated<T: Real>(input: &Input<T>, discriminant: &Discriminant<T>) -> Estimate<T> {
+    let Input { p0, center, d, r } = *input;
     let (x, x_error) = two_difference(p0[0], center[0]);
     let (y, y_error) = two_difference(p0[1], center[1]);
     let (z, z_error) = two_difference(p0[2], center[2]);
@@ -171,11 +237,21 @@ pub fn compensated_c<T: Real>(input: &Input<T>) -> (T, T) {
     let from_squares = (x2_error + y2_error) + z2_error;
     let from_sums = (sum_error + o2_error) + high_error;
     let c = high + ((from_sums + from_squares) + (from_differences + from_differences));
-    let error = T::of(2.0 * U) * c.abs() + T::of(64.0 * U * U) * (o2 + r2);
-    (c, error)
+
+    let terms = [x * d[0], y * d[1], z * d[2]];
+    let magnitude = (terms[0].abs() + terms[1].abs()) + terms[2].abs();
+    Estimate {
+        a: discriminant.a,
+        half_b: (terms[0] + terms[1]) + terms[2],
+        half_b_error: T::of(4.25 * U) * magnitude,
+        c,
+        c_error: T::of(2.0 * U) * c.abs() + T::of(64.0 * U * U) * (o2 + r2),
+        d: discriminant.d,
+        d_error: discriminant.d_error,
+    }
 }
 
-/// Both roots, for D > 4 × its error: one square root and one division.
+/// Both roots with bounds on their errors, for D > 4 × its error.
 #[inline(always)]
 pub fn roots<T: Real>(estimate: &Estimate<T>) -> Roots<T> {
     let Estimate {
@@ -187,34 +263,39 @@ pub fn roots<T: Real>(estimate: &Estimate<T>) -> Roots<T> {
         d,
         d_error,
     } = *estimate;
-    let s = d.sqrt();
-    let q = half_b.abs() + s;
+    let s = d.sqrt().copysign(half_b);
+    let q = half_b + s;
+    let great = q / a;
+    let small = c / q;
 
-    let aq = a * q;
-    let inverse = T::of(1.0) / (aq * s);
-    let inverse_aq = s * inverse;
-    let inverse_a = q * inverse_aq;
-    let inverse_q = a * inverse_aq;
-    let inverse_s = aq * inverse;
-
-    let q_error = (half_b_error + T::of(0.5625) * (d_error * inverse_s)) + T::of(12.0 * U) * q;
-    let great = q * inverse_a;
-    let great_error = q_error * inverse_a;
-    let small = c * inverse_q;
-    let small_error = T::of(1.75) * ((c_error + q_error * small.abs()) * inverse_q);
-
-    // b < 0: the roots are small ≤ great; otherwise −great ≤ −small.
+    let s_error = T::of(0.5625) * (d_error / s.abs());
+    let q_error = (half_b_error + s_error) + T::of(8.0 * U) * q.abs();
     Roots {
         s,
         q,
-        near: Bounded {
-            value: half_b.where_negative(small, -great),
-            error: half_b.where_negative(small_error, great_error),
+        great: Bounded {
+            value: great,
+            error: q_error / a,
         },
-        far: Bounded {
-            value: half_b.where_negative(great, -small),
-            error: half_b.where_negative(great_error, small_error),
+        small: Bounded {
+            value: small,
+            error: T::of(1.75) * ((c_error + q_error * small.abs()) / q.abs()),
         },
+    }
+}
+
+/// The two equal roots −b/A of D = 0, for b and A rounded once.
+pub fn double_root(estimate: &Estimate<f64>) -> Roots<f64> {
+    let value = estimate.half_b / estimate.a;
+    let root = Bounded {
+        value,
+        error: 6.0 * U * value.abs(),
+    };
+    Roots {
+        s: 0.0,
+        q: estimate.half_b,
+        great: root,
+        small: root,
     }
 }
 

@@ -4,8 +4,8 @@
 use std::cmp::Ordering;
 
 use super::binary64::{Estimate, Input, U};
-use super::plain::power_of_two;
 use super::rounding::{Quadratic, Signs};
+use super::whole::power_of_two;
 
 /// Words of A, b and C: multiples of 2⁻²⁹⁸ below 2²⁶⁰.
 const SINGLE: usize = 9;
@@ -25,14 +25,38 @@ struct Integer<const N: usize> {
 }
 
 impl<const N: usize> Integer<N> {
+    /// The integer of these words in two's complement.
+    fn from_signed(words: [u64; N]) -> Self {
+        let negative = words[N - 1] >> 63 == 1;
+        Self {
+            negative,
+            words: negated_if(negative, words),
+        }
+    }
+
+    fn to_signed(self) -> [u64; N] {
+        negated_if(self.negative, self.words)
+    }
+
     fn sign(&self) -> Ordering {
-        if self.words.iter().all(|&word| word == 0) {
+        if self.words.iter().fold(0, |any, word| any | word) == 0 {
             Ordering::Equal
         } else if self.negative {
             Ordering::Less
         } else {
             Ordering::Greater
         }
+    }
+
+    fn plus(self, other: Self) -> Self {
+        let mut words = self.to_signed();
+        let mut carry = false;
+        for (word, other) in words.iter_mut().zip(other.to_signed()) {
+            let (sum, over) = word.overflowing_add(other);
+            let (sum, over_too) = sum.overflowing_add(carry.into());
+            (*word, carry) = (sum, over | over_too);
+        }
+        Self::from_signed(words)
     }
 
     /// This integer times 2^unit, rounded once to binary64 (nearest, ties to even).
@@ -43,10 +67,11 @@ impl<const N: usize> Integer<N> {
         let zeros = self.words[top].leading_zeros();
         let below = if top == 0 { 0 } else { self.words[top - 1] };
         let pair = (u128::from(self.words[top]) << 64 | u128::from(below)) << zeros;
-        // What lies below the leading 128 bits only matters by not being zero.
-        let rest = self.words[..top.saturating_sub(1)].iter().any(|&w| w != 0);
-        let leading = (pair | u128::from(rest)) as f64;
-        let exponent = unit + 64 * (top as i32 - 1) - zeros as i32;
+        // What lies below the leading 64 bits only matters by not being zero.
+        let lower = &self.words[..top.saturating_sub(1)];
+        let rest = lower.iter().fold(pair as u64, |any, word| any | word) != 0;
+        let leading = ((pair >> 64) as u64 | u64::from(rest)) as f64;
+        let exponent = unit + 64 * top as i32 - zeros as i32;
         let magnitude = leading * power_of_two(exponent);
         if self.negative { -magnitude } else { magnitude }
     }
@@ -56,9 +81,6 @@ impl Integer<SINGLE> {
     fn times(&self, other: &Self) -> Integer<DOUBLE> {
         let mut words = [0; DOUBLE];
         for (i, &x) in self.words.iter().enumerate() {
-            if x == 0 {
-                continue;
-            }
             let mut carry = 0;
             for (j, &y) in other.words.iter().enumerate() {
                 let sum = u128::from(x) * u128::from(y) + u128::from(words[i + j]) + carry;
@@ -72,75 +94,71 @@ impl Integer<SINGLE> {
             words,
         }
     }
-}
 
-/// A sum in two's complement, wide enough never to overflow.
-#[derive(Debug, Clone, Copy)]
-struct Sum<const N: usize>([u64; N]);
-
-impl<const N: usize> Sum<N> {
-    const ZERO: Self = Self([0; N]);
-
-    /// Adds ±magnitude·2^shift.
-    fn add(&mut self, negative: bool, magnitude: u64, shift: u32) {
-        let at = (shift / 64) as usize;
-        let shifted = u128::from(magnitude) << (shift % 64);
-        let parts = [shifted as u64, (shifted >> 64) as u64];
-        for (i, part) in parts.into_iter().enumerate() {
-            if part != 0 {
-                self.add_word(negative, part, at + i);
-            }
-        }
-    }
-
-    fn add_word(&mut self, negative: bool, word: u64, at: usize) {
-        let mut carry = word;
-        for place in &mut self.0[at..] {
-            let (sum, overflow) = if negative {
-                place.overflowing_sub(carry)
-            } else {
-                place.overflowing_add(carry)
-            };
-            *place = sum;
-            if !overflow {
-                return;
-            }
-            carry = 1;
-        }
-    }
-
-    /// Adds x·y for two binary32 in units of 2^[`UNIT`], or subtracts it.
-    fn add_product(&mut self, x: Single, y: Single, subtract: bool) {
-        let negative = x.negative != y.negative;
-        let shift = x.shift + y.shift;
-        self.add(negative != subtract, x.mantissa * y.mantissa, shift);
-    }
-
-    /// Adds ±x·factor·2^shift.
-    fn add_scaled(&mut self, x: &Integer<SINGLE>, negative: bool, factor: u64, shift: u32) {
-        let negative = negative != x.negative;
-        for (i, &word) in x.words.iter().enumerate() {
-            let product = u128::from(word) * u128::from(factor);
-            let shift = shift + 64 * i as u32;
-            if word != 0 {
-                self.add(negative, product as u64, shift);
-                self.add(negative, (product >> 64) as u64, shift + 64);
-            }
-        }
-    }
-
-    fn finish(mut self) -> Integer<N> {
-        let negative = self.0[N - 1] >> 63 == 1;
-        if negative {
-            let mut carry = true;
-            for word in &mut self.0 {
-                (*word, carry) = (!*word).overflowing_add(carry.into());
-            }
+    /// ±factor·2^shift times this integer.
+    fn scaled(&self, negative: bool, factor: u64, shift: u32) -> Integer<DOUBLE> {
+        let mut words = [0; DOUBLE];
+        let (skipped, shift) = ((shift / 64) as usize, shift % 64);
+        let (mut carry, mut below) = (0, 0);
+        for i in 0..DOUBLE - skipped {
+            let word = self.words.get(i).copied().unwrap_or(0);
+            let product = u128::from(word) * u128::from(factor) + carry;
+            carry = product >> 64;
+            let pair = u128::from(product as u64) << 64 | u128::from(below);
+            words[skipped + i] = (pair << shift >> 64) as u64;
+            below = product as u64;
         }
         Integer {
-            negative,
-            words: self.0,
+            negative: self.negative != negative,
+            words,
         }
+    }
+}
+
+/// The words of −x in two's complement if `negate`, of x otherwise; without a branch.
+fn negated_if<const N: usize>(negate: bool, mut words: [u64; N]) -> [u64; N] {
+    let flip = u64::from(negate).wrapping_neg();
+    let mut carry = negate;
+    for word in &mut words {
+        (*word, carry) = (*word ^ flip).overflowing_add(carry.into());
+    }
+    words
+}
+
+/// A sum of products of two binary32, in units of 2^[`UNIT`]: digits of 32 bits, each with room to
+/// grow, so that no carry is passed on before the end.
+#[derive(Debug, Clone, Copy)]
+struct Sum([i64; 2 * SINGLE]);
+
+impl Sum {
+    const ZERO: Self = Self([0; 2 * SINGLE]);
+
+    /// Adds x·y, or subtracts it.
+    fn add_product(&mut self, x: Single, y: Single, subtract: bool) {
+        const DIGIT: i128 = 0xffff_ffff;
+        let magnitude = (x.mantissa * y.mantissa) as i64;
+        let negative = x.negative ^ y.negative ^ subtract;
+        let signed = if negative { -magnitude } else { magnitude };
+        let shift = x.shift + y.shift;
+        let at = (shift / 32) as usize;
+        let shifted = i128::from(signed) << (shift % 32);
+        self.0[at] += (shifted & DIGIT) as i64;
+        self.0[at + 1] += (shifted >> 32 & DIGIT) as i64;
+        self.0[at + 2] += (shifted >> 64) as i64;
+    }
+
+    fn finish(self) -> Integer<SINGLE> {
+        let mut carry = 0;
+        let digits = self.0.map(|digit| {
+            let sum = digit + carry;
+            carry = sum >> 32;
+            sum as u32
+        });
+        let mut words = [0; SINGLE];
+        for (word, pair) in words.iter_mut().zip(digits.chunks_exact(2)) {
+            *word = u64::from(pair[0]) | u64::from(pair[1]) << 32;
+        }
+        Integer::from_signed(words)
     }
 }
 
@@ -214,7 +232,7 @@ impl Exact {
         let center = input.center.map(Single::new);
         let r = Single::new(input.r);
 
-        let [mut a, mut half_b, mut c] = [Sum::<SINGLE>::ZERO; 3];
+        let [mut a, mut half_b, mut c] = [Sum::ZERO; 3];
         for i in 0..3 {
             a.add_product(d[i], d[i], false);
             half_b.add_product(p0[i], d[i], false);
@@ -226,35 +244,34 @@ impl Exact {
         c.add_product(r, r, true);
         let [a, half_b, c] = [a, half_b, c].map(Sum::finish);
 
-        let mut d = Sum(half_b.times(&half_b).words);
-        let ac = a.times(&c);
-        for (i, &word) in ac.words.iter().enumerate() {
-            d.add_word(!ac.negative, word, i);
-        }
+        let minus_c = Integer {
+            negative: !c.negative,
+            ..c
+        };
         Self {
             a,
             half_b,
             c,
-            d: d.finish(),
+            d: half_b.times(&half_b).plus(a.times(&minus_c)),
         }
     }
 
     fn value(&self, m: f64) -> Ordering {
         let m = Midpoint::new(m);
-        let mut f = Sum::<DOUBLE>::ZERO;
         let unit = MIDPOINT_UNIT.unsigned_abs();
-        f.add_scaled(&self.a, false, m.mantissa * m.mantissa, 2 * m.shift);
-        f.add_scaled(&self.half_b, m.negative, 2 * m.mantissa, m.shift + unit);
-        f.add_scaled(&self.c, false, 1, 2 * unit);
-        f.finish().sign()
+        let square = self.a.scaled(false, m.mantissa * m.mantissa, 2 * m.shift);
+        let linear = self
+            .half_b
+            .scaled(m.negative, 2 * m.mantissa, m.shift + unit);
+        let constant = self.c.scaled(false, 1, 2 * unit);
+        square.plus(linear).plus(constant).sign()
     }
 
     fn slope(&self, m: f64) -> Ordering {
         let m = Midpoint::new(m);
-        let mut g = Sum::<DOUBLE>::ZERO;
-        g.add_scaled(&self.a, m.negative, m.mantissa, m.shift);
-        g.add_scaled(&self.half_b, false, 1, MIDPOINT_UNIT.unsigned_abs());
-        g.finish().sign()
+        let linear = self.a.scaled(m.negative, m.mantissa, m.shift);
+        let constant = self.half_b.scaled(false, 1, MIDPOINT_UNIT.unsigned_abs());
+        linear.plus(constant).sign()
     }
 }
 

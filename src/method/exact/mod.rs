@@ -13,32 +13,34 @@ mod binary64;
 mod double_double;
 mod error_free;
 mod integer;
-mod plain;
 mod real;
 mod rounding;
+mod whole;
 
 use std::cmp::Ordering;
 use std::fmt;
 
-pub use binary64::{Bounded, Discriminant, Estimate, Roots};
+pub use binary64::{Bounded, Direct, Discriminant, Estimate};
 
 use super::{Class, Coefficients, Precision, Solution};
 use crate::geometry::{Ray, Sphere};
-use binary64::{Input, U};
+use binary64::Input;
 use double_double::Doubled;
 use integer::Exact;
-use plain::Plain;
 use rounding::{Quadratic, Which};
+use whole::Whole;
 
 /// The ways of `exact`, in the order in which they are tried.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Stage {
-    /// Stage 1: binary64 with certified bounds.
+    /// Stage 1: binary64, with the class certified and the roots by (−b ± s)/A.
     Binary64,
-    /// Still stage 1, with the rounding errors of C added back.
+    /// Stage 1 for small whole numbers, for which it rounds nothing but √ and ÷.
+    Unrounded,
+    /// Still binary64: C with its rounding errors added back, the roots by q and certified bounds.
     Compensated,
-    /// The short way for small whole numbers: integers of 64 and 128 bits.
-    Plain,
+    /// A short way for whole numbers of up to 30 bits: integers of 64 and 128 bits.
+    Whole,
     /// Stage 2: numbers of about 106 bits, with certified bounds.
     DoubleDouble,
     /// Stage 3: integers of 576 and 1152 bits, exact for every input.
@@ -47,10 +49,11 @@ pub enum Stage {
 
 impl Stage {
     /// All stages, in the order in which they are tried.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Binary64,
+        Self::Unrounded,
         Self::Compensated,
-        Self::Plain,
+        Self::Whole,
         Self::DoubleDouble,
         Self::Integer,
     ];
@@ -59,8 +62,9 @@ impl Stage {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Binary64 => "binary64",
+            Self::Unrounded => "unrounded",
             Self::Compensated => "compensated",
-            Self::Plain => "plain",
+            Self::Whole => "whole",
             Self::DoubleDouble => "double-double",
             Self::Integer => "integer",
         }
@@ -91,23 +95,36 @@ impl Stages {
             .max(self.near.unwrap_or(self.class))
             .max(self.far.unwrap_or(self.class))
     }
+
+    const fn without_roots(class: Stage) -> Self {
+        Self {
+            class,
+            near: None,
+            far: None,
+        }
+    }
 }
 
-/// What one stage found: its quantities with their bounds, and what they settle.
+/// A root as one stage has it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Root {
+    /// The root in binary64, with a bound on its error.
+    pub bounded: Bounded<f64>,
+    /// The root rounded once to binary32; none if this stage cannot tell, or an earlier one had.
+    pub settled: Option<f32>,
+}
+
+/// What one stage found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Findings {
     /// Which stage.
     pub stage: Stage,
-    /// A, b, C and D with bounds on their errors.
-    pub estimate: Estimate<f64>,
     /// The class, if the stage is sure of the sign of D.
     pub class: Option<Class>,
-    /// Both roots with bounds on their errors, if there are any.
-    pub roots: Option<Roots<f64>>,
-    /// The smaller root in binary32, if the stage is sure of its rounding or was not asked for it.
-    pub near: Option<f32>,
-    /// The larger root in binary32, if the stage is sure of its rounding or was not asked for it.
-    pub far: Option<f32>,
+    /// A, b, C and D with bounds on their errors; none in stage 1, which needs no C.
+    pub estimate: Option<Estimate<f64>>,
+    /// The smaller and the larger root, if there are any.
+    pub roots: Option<[Root; 2]>,
 }
 
 /// One run of `exact`, with the very quantities that decided it.
@@ -117,35 +134,54 @@ pub struct Record {
     pub solution: Solution,
     /// Which stage settled what.
     pub stages: Stages,
-    /// o, A, A r², |o × d|² and D of stage 1.
+    /// o, A, A r², |o × d|² and D of stage 1, with the bound on the error of D.
     pub discriminant: Discriminant<f64>,
+    /// b, s and both roots of stage 1, if it is sure that there are two.
+    pub direct: Option<Direct<f64>>,
     /// What each stage found that was asked, stage 1 first.
     pub findings: Vec<Findings>,
 }
 
 /// The exact class, and both roots rounded once to binary32 (nearest, ties to even, ±∞ past the
 /// range, +0 for what rounds to zero), for finite numbers, d ≠ 0 and r ≥ 0.
+#[inline]
 pub fn solve(ray: &Ray, sphere: &Sphere) -> Solution {
     let input = Input::new(ray, sphere);
-    first(&input).answer().unwrap_or_else(|| beyond(&input))
+    let discriminant = binary64::discriminant(&input);
+    match discriminant.class() {
+        Some(Class::Miss) => return Solution::MISS,
+        Some(class) => {
+            let direct = binary64::direct(&input, &discriminant);
+            if let [Some(near), Some(far)] = settled(&direct, &discriminant) {
+                return Solution { class, near, far };
+            }
+        }
+        None => {}
+    }
+    beyond(&input, &discriminant)
 }
 
 /// The answer of [`solve`], and which stage settled what.
 pub fn solve_staged(ray: &Ray, sphere: &Sphere) -> (Solution, Stages) {
     let input = Input::new(ray, sphere);
-    settle(&input, &first(&input), |_| ())
+    let discriminant = binary64::discriminant(&input);
+    settle(&Stage::ALL, &input, &discriminant, |_| ())
 }
 
 /// The answer of [`solve`], and all that led to it.
 pub fn record(ray: &Ray, sphere: &Sphere) -> Record {
     let input = Input::new(ray, sphere);
-    let first = first(&input);
+    let discriminant = binary64::discriminant(&input);
     let mut findings = Vec::with_capacity(Stage::ALL.len());
-    let (solution, stages) = settle(&input, &first, |found| findings.push(*found));
+    let (solution, stages) = settle(&Stage::ALL, &input, &discriminant, |found| {
+        findings.push(*found);
+    });
     Record {
         solution,
         stages,
-        discriminant: first.discriminant,
+        discriminant,
+        direct: (discriminant.class() == Some(Class::Secant))
+            .then(|| binary64::direct(&input, &discriminant)),
         findings,
     }
 }
@@ -155,8 +191,8 @@ pub fn coefficients(ray: &Ray, sphere: &Sphere) -> Coefficients {
     let input = Input::new(ray, sphere);
     let Estimate {
         a, half_b, c, d, ..
-    } = match Plain::of(&input) {
-        Some(plain) => plain.estimate(),
+    } = match Whole::of(&input) {
+        Some(whole) => whole.estimate(),
         None => Exact::new(&input).estimate(),
     };
     Coefficients {
@@ -168,61 +204,12 @@ pub fn coefficients(ray: &Ray, sphere: &Sphere) -> Coefficients {
     }
 }
 
-/// What stage 1 found, before any compensation.
-#[derive(Debug, Clone, Copy)]
-struct First {
-    discriminant: Discriminant<f64>,
-    findings: Findings,
-}
-
-impl First {
-    #[inline(always)]
-    fn answer(&self) -> Option<Solution> {
-        let Findings {
-            class, near, far, ..
-        } = self.findings;
-        match class? {
-            Class::Miss => Some(Solution::MISS),
-            class => Some(Solution {
-                class,
-                near: near?,
-                far: far?,
-            }),
-        }
-    }
-}
-
-#[inline(always)]
-fn first(input: &Input<f64>) -> First {
-    let discriminant = binary64::discriminant(input);
-    let estimate = binary64::estimate(input, &discriminant);
-    let threshold = 4.0 * discriminant.d_error;
-    let class = if discriminant.d > threshold {
-        Some(Class::Secant)
-    } else if discriminant.d < -threshold {
-        Some(Class::Miss)
-    } else {
-        None
-    };
-    let roots = (class == Some(Class::Secant)).then(|| binary64::roots(&estimate));
-    First {
-        discriminant,
-        findings: Findings {
-            stage: Stage::Binary64,
-            estimate,
-            class,
-            roots,
-            near: roots.and_then(|roots| rounding::by_bound(roots.near)),
-            far: roots.and_then(|roots| rounding::by_bound(roots.far)),
-        },
-    }
-}
-
 /// The answer where stage 1 left something open.
 #[cold]
 #[inline(never)]
-fn beyond(input: &Input<f64>) -> Solution {
-    settle(input, &first(input), |_| ()).0
+fn beyond(input: &Input<f64>, discriminant: &Discriminant<f64>) -> Solution {
+    let stages = &Stage::ALL[1..];
+    settle(stages, input, discriminant, |_| ()).0
 }
 
 /// What is settled so far, each part with the stage that settled it.
@@ -237,125 +224,193 @@ impl Answer {
     fn learn(&mut self, found: &Findings) {
         let by = found.stage;
         self.class = self.class.or(found.class.map(|class| (class, by)));
-        self.near = self.near.or(found.near.map(|near| (near, by)));
-        self.far = self.far.or(found.far.map(|far| (far, by)));
+        if let Some([near, far]) = found.roots {
+            self.near = self.near.or(near.settled.map(|t| (t, by)));
+            self.far = self.far.or(far.settled.map(|t| (t, by)));
+        }
     }
 
     fn complete(&self) -> Option<(Solution, Stages)> {
-        let (class, by) = self.class?;
-        if class == Class::Miss {
-            let stages = Stages {
-                class: by,
-                near: None,
-                far: None,
-            };
-            return Some((Solution::MISS, stages));
+        match (self.class?, self.near, self.far) {
+            ((Class::Miss, by), ..) => Some((Solution::MISS, Stages::without_roots(by))),
+            ((class, by), Some((near, near_by)), Some((far, far_by))) => {
+                let stages = Stages {
+                    class: by,
+                    near: Some(near_by),
+                    far: Some(far_by),
+                };
+                Some((Solution { class, near, far }, stages))
+            }
+            _ => None,
         }
-        let (near, near_by) = self.near?;
-        let (far, far_by) = self.far?;
-        let stages = Stages {
-            class: by,
-            near: Some(near_by),
-            far: Some(far_by),
-        };
-        Some((Solution { class, near, far }, stages))
     }
 }
 
 /// Asks stage after stage until all is settled; `see` is shown what each one found.
-fn settle(input: &Input<f64>, first: &First, mut see: impl FnMut(&Findings)) -> (Solution, Stages) {
+#[inline(always)]
+fn settle(
+    stages: &[Stage],
+    input: &Input<f64>,
+    discriminant: &Discriminant<f64>,
+    mut see: impl FnMut(&Findings),
+) -> (Solution, Stages) {
     let mut answer = Answer::default();
-    for stage in Stage::ALL {
-        if let Some(found) = ask(stage, input, first, &answer) {
-            see(&found);
-            answer.learn(&found);
-        }
-        if let Some(complete) = answer.complete() {
-            return complete;
+    if discriminant.is_of_ray_and_sphere() {
+        for &stage in stages {
+            if let Some(found) = ask(stage, input, discriminant, &answer) {
+                see(&found);
+                answer.learn(&found);
+            }
+            if let Some(complete) = answer.complete() {
+                return complete;
+            }
         }
     }
     // Only what is no ray or sphere gets here: the last stage answers every question.
-    let stages = Stages {
-        class: Stage::Integer,
-        near: None,
-        far: None,
-    };
+    let stages = Stages::without_roots(Stage::Binary64);
     (Solution::without_roots(Class::Nan), stages)
 }
 
 /// What a stage finds for the parts still open; none if it has nothing to say of this input.
-fn ask(stage: Stage, input: &Input<f64>, first: &First, answer: &Answer) -> Option<Findings> {
-    if !first.discriminant.is_of_ray_and_sphere() {
-        return None;
-    }
+///
+/// Each stage is a function of its own, never inlined: the compiler would find its first steps
+/// independent of the loop over stages, and take all of them for every ray.
+fn ask(
+    stage: Stage,
+    input: &Input<f64>,
+    discriminant: &Discriminant<f64>,
+    open: &Answer,
+) -> Option<Findings> {
     match stage {
-        Stage::Binary64 => Some(first.findings),
-        Stage::Compensated => compensated(input, &first.findings),
-        Stage::Plain => Plain::of(input).map(|plain| consult(stage, &plain, answer)),
-        Stage::DoubleDouble => Some(consult(stage, &Doubled::new(input), answer)),
-        Stage::Integer => Some(consult(stage, &Exact::new(input), answer)),
+        Stage::Binary64 => Some(in_binary64(input, discriminant)),
+        Stage::Unrounded => unrounded(input, discriminant),
+        Stage::Compensated => compensated(input, discriminant),
+        Stage::Whole => whole(input, open),
+        Stage::DoubleDouble => Some(double_double(input, open)),
+        Stage::Integer => Some(integer(input, open)),
     }
 }
 
-/// Stage 1 once more, with the better C, if roots are what it left open.
-fn compensated(input: &Input<f64>, first: &Findings) -> Option<Findings> {
-    first.roots?;
-    let (c, c_error) = binary64::compensated_c(input);
-    let estimate = Estimate {
-        c,
-        c_error,
-        ..first.estimate
-    };
-    let roots = binary64::roots(&estimate);
-    Some(Findings {
-        stage: Stage::Compensated,
-        estimate,
-        class: first.class,
-        roots: Some(roots),
-        near: rounding::by_bound(roots.near),
-        far: rounding::by_bound(roots.far),
+/// Stage 1, as [`solve`] runs it.
+#[inline(never)]
+fn in_binary64(input: &Input<f64>, discriminant: &Discriminant<f64>) -> Findings {
+    let class = discriminant.class();
+    Findings {
+        stage: Stage::Binary64,
+        class,
+        estimate: None,
+        roots: (class == Some(Class::Secant)).then(|| {
+            let direct = binary64::direct(input, discriminant);
+            let bounded = direct.roots(discriminant);
+            let settled = settled(&direct, discriminant);
+            [0, 1].map(|i| Root {
+                bounded: bounded[i],
+                settled: settled[i],
+            })
+        }),
+    }
+}
+
+/// The smaller and the larger root, each if all within its bound rounds alike.
+#[inline(always)]
+fn settled(direct: &Direct<f64>, discriminant: &Discriminant<f64>) -> [Option<f32>; 2] {
+    let certain = discriminant.d_error < direct.d_error_limit;
+    [direct.near, direct.far].map(|bounds| {
+        let [t, too] = bounds.map(rounding::round);
+        (certain && t == too).then_some(t)
     })
 }
 
-/// What a stage beyond the first knows of the parts still open.
-fn consult(stage: Stage, quadratic: &impl Quadratic, answer: &Answer) -> Findings {
-    let estimate = quadratic.estimate();
-    let class = quadratic.discriminant().map(|sign| match sign {
+#[inline(never)]
+fn unrounded(input: &Input<f64>, discriminant: &Discriminant<f64>) -> Option<Findings> {
+    let estimate = whole::unrounded(input, discriminant)?;
+    let sign = estimate.d.partial_cmp(&0.0);
+    let settle = |_, bounded| rounding::by_bound(bounded);
+    Some(consult(Stage::Unrounded, sign, estimate, settle))
+}
+
+/// Binary64 once more, with the better C, if roots are what was left open.
+#[inline(never)]
+fn compensated(input: &Input<f64>, discriminant: &Discriminant<f64>) -> Option<Findings> {
+    let class = discriminant.class()?;
+    let estimate = binary64::compensated(input, discriminant);
+    let roots = binary64::roots(&estimate);
+    Some(Findings {
+        stage: Stage::Compensated,
+        class: Some(class),
+        estimate: Some(estimate),
+        roots: Some([roots.near(), roots.far()].map(settled_by_bound)),
+    })
+}
+
+fn settled_by_bound(bounded: Bounded<f64>) -> Root {
+    Root {
+        bounded,
+        settled: rounding::by_bound(bounded),
+    }
+}
+
+#[inline(never)]
+fn whole(input: &Input<f64>, open: &Answer) -> Option<Findings> {
+    Whole::of(input).map(|whole| ask_for_signs(Stage::Whole, &whole, open))
+}
+
+#[inline(never)]
+fn double_double(input: &Input<f64>, open: &Answer) -> Findings {
+    ask_for_signs(Stage::DoubleDouble, &Doubled::new(input), open)
+}
+
+#[inline(never)]
+fn integer(input: &Input<f64>, open: &Answer) -> Findings {
+    ask_for_signs(Stage::Integer, &Exact::new(input), open)
+}
+
+/// What a stage that can answer questions of sign knows of the parts still open.
+fn ask_for_signs(stage: Stage, quadratic: &impl Quadratic, open: &Answer) -> Findings {
+    let (sign, estimate) = (quadratic.discriminant(), quadratic.estimate());
+    consult(stage, sign, estimate, |which, bounded| {
+        let known = match which {
+            Which::Near => open.near,
+            Which::Far => open.far,
+        };
+        match known {
+            Some(_) => None,
+            None => rounding::by_signs(which, bounded, quadratic),
+        }
+    })
+}
+
+/// What follows from the sign of D, the estimates, and a way to round.
+#[inline(always)]
+fn consult(
+    stage: Stage,
+    sign: Option<Ordering>,
+    estimate: Estimate<f64>,
+    settle: impl Fn(Which, Bounded<f64>) -> Option<f32>,
+) -> Findings {
+    let class = sign.map(|sign| match sign {
         Ordering::Less => Class::Miss,
         Ordering::Equal => Class::Tangent,
         Ordering::Greater => Class::Secant,
     });
     let roots = match class {
-        Some(Class::Tangent) => Some(double_root(&estimate)),
         Some(Class::Secant) => Some(binary64::roots(&estimate)),
+        Some(Class::Tangent) => Some(binary64::double_root(&estimate)),
         _ => None,
     };
-    let rounded =
-        |which, root: fn(&Roots<f64>) -> Bounded<f64>, known: Option<(f32, Stage)>| match known {
-            Some((known, _)) => Some(known),
-            None => rounding::by_signs(which, root(&roots?), quadratic),
-        };
+    let root = |which, bounded| Root {
+        bounded,
+        settled: settle(which, bounded),
+    };
     Findings {
         stage,
-        estimate,
         class,
-        roots,
-        near: rounded(Which::Near, |roots| roots.near, answer.near),
-        far: rounded(Which::Far, |roots| roots.far, answer.far),
-    }
-}
-
-/// The two equal roots −b/A of D = 0, b and A being rounded once.
-fn double_root(estimate: &Estimate<f64>) -> Roots<f64> {
-    let value = -estimate.half_b / estimate.a;
-    let root = Bounded {
-        value,
-        error: 6.0 * U * value.abs(),
-    };
-    Roots {
-        s: 0.0,
-        q: estimate.half_b.abs(),
-        near: root,
-        far: root,
+        estimate: Some(estimate),
+        roots: roots.map(|roots| {
+            [
+                root(Which::Near, roots.near()),
+                root(Which::Far, roots.far()),
+            ]
+        }),
     }
 }

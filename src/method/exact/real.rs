@@ -17,8 +17,8 @@ pub trait Real:
     fn abs(self) -> Self;
     /// The square root, rounded once.
     fn sqrt(self) -> Self;
-    /// `negative` in the lanes where this number is below zero, `otherwise` in the others.
-    fn where_negative(self, negative: Self, otherwise: Self) -> Self;
+    /// The magnitude with the sign of `other`.
+    fn copysign(self, other: Self) -> Self;
 }
 
 impl Real for f64 {
@@ -38,7 +38,7 @@ impl Real for f64 {
     }
 
     #[inline(always)]
-    fn where_negative(self, negative: Self, otherwise: Self) -> Self {
-        if self < 0.0 { negative } else { otherwise }
+    fn copysign(self, other: Self) -> Self {
+        self.copysign(other)
     }
 }

@@ -41,15 +41,14 @@ pub fn round(t: f64) -> f32 {
 
 /// What the least and the greatest number within the bound round to.
 #[inline(always)]
-pub fn bracket(root: Bounded<f64>) -> (f32, f32) {
+fn bracket(root: Bounded<f64>) -> (f32, f32) {
     (
         round(root.value - root.error),
         round(root.value + root.error),
     )
 }
 
-/// The answer, if the bound alone leaves only one.
-#[inline(always)]
+/// The answer, if the bound alone leaves one.
 pub fn by_bound(root: Bounded<f64>) -> Option<f32> {
     let (low, high) = bracket(root);
     (low == high).then_some(low)

@@ -1,13 +1,46 @@
-//! The short way for plain cases: o and r small integers in one unit, d in another.
+//! Short ways for plain cases: o and r are whole numbers in one unit, d in another.
 //!
 //! Then A, b and C are integers of 64 bits and D of 128, so that tangents, rays from the surface
 //! and ties are settled for certain in a few nanoseconds.
 
 use std::cmp::Ordering;
+use std::ops::{Add, Mul};
 
-use super::binary64::{Estimate, Input, U};
+use super::binary64::{Discriminant, Estimate, Input, U};
 use super::error_free::two_difference;
 use super::rounding::{Quadratic, Signs};
+
+/// A, b, C and D as stage 1 computes them, if it rounds nothing: o and r are whole numbers of 12
+/// bits in one unit, d in another, so that D has at most 52.
+pub fn unrounded(input: &Input<f64>, discriminant: &Discriminant<f64>) -> Option<Estimate<f64>> {
+    let Input { p0, d, center, r } = *input;
+    let Discriminant {
+        o,
+        a,
+        d: quarter_discriminant,
+        ..
+    } = *discriminant;
+    let [x, y, z] = p0;
+    let [cx, cy, cz] = center;
+    let lengths = are_whole([x, y, z, cx, cy, cz, r], greatest(o).max(r));
+    (lengths && are_whole(d, greatest(d))).then(|| Estimate {
+        a,
+        half_b: dot(o, d),
+        half_b_error: 0.0,
+        c: dot(o, o) - r * r,
+        c_error: 0.0,
+        d: quarter_discriminant,
+        d_error: 0.0,
+    })
+}
+
+/// Whether all are whole numbers of the unit in which `greatest` has 12 bits, and below 2⁵¹ units.
+fn are_whole<const N: usize>(values: [f64; N], greatest: f64) -> bool {
+    // To add 1.5·2⁵² units, and to take them away again, rounds to whole units.
+    let shift = 1.5 * power_of_two(exponent(greatest) + 52 - 11);
+    let rounded = values.map(|x| (x + shift) - shift);
+    rounded == values
+}
 
 /// Magnitudes of the integers for o, r and d stay below 2³⁰, so that |A|, |b|, |C| < 2⁶² and
 /// |D| < 2¹²⁴.
@@ -15,7 +48,7 @@ const BITS: i32 = 30;
 
 /// The quadratic in whole units.
 #[derive(Debug, Clone, Copy)]
-pub struct Plain {
+pub struct Whole {
     a: i64,
     half_b: i64,
     c: i64,
@@ -27,7 +60,7 @@ pub struct Plain {
     direction_unit: i32,
 }
 
-impl Plain {
+impl Whole {
     /// The quadratic in whole units, if o, d and r allow it.
     pub fn of(input: &Input<f64>) -> Option<Self> {
         let Input { p0, d, center, r } = *input;
@@ -73,7 +106,7 @@ impl Plain {
     }
 }
 
-impl Quadratic for Plain {
+impl Quadratic for Whole {
     fn discriminant(&self) -> Option<Ordering> {
         Some(self.d.cmp(&0))
     }
@@ -95,7 +128,7 @@ impl Quadratic for Plain {
     }
 }
 
-impl Signs for Plain {
+impl Signs for Whole {
     fn of_value(&self, m: f64) -> Option<Ordering> {
         let (x, n) = self.in_units(m)?;
         let square = i128::from(self.a).checked_mul(x.checked_mul(x)?)?;
@@ -163,6 +196,6 @@ fn greatest(v: [f64; 3]) -> f64 {
     v[0].abs().max(v[1].abs()).max(v[2].abs())
 }
 
-fn dot(u: [i64; 3], v: [i64; 3]) -> i64 {
+fn dot<T: Copy + Add<Output = T> + Mul<Output = T>>(u: [T; 3], v: [T; 3]) -> T {
     u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 }

@@ -1,0 +1,252 @@
+//! The derivation of one intersection as JSON; docs/methods.md describes the object.
+//!
+//! A number of the machine is a JSON number, the shortest that reads back as the same binary32 or
+//! binary64, or one of the strings "inf", "-inf", "NaN"; an exact value is a string of decimals.
+
+use serde::{Serialize, Serializer};
+
+use crate::geometry::{Ray, Sphere};
+use crate::method::format::{self, Signs};
+use crate::method::trace::{Loss, LossKind, Measured, Step, Trace};
+use crate::method::{Class, Place, Precision, Solution, Surd};
+
+/// Digits of exact values.
+const DIGITS: usize = 60;
+
+/// The derivation with a line end.
+pub(super) fn text(ray: &Ray, sphere: &Sphere, trace: &Trace) -> String {
+    let document = Document::new(ray, sphere, trace);
+    // Nothing in the document can fail to be written: its keys are strings.
+    serde_json::to_string_pretty(&document).unwrap_or_default() + "\n"
+}
+
+#[derive(Serialize)]
+struct Document<'a> {
+    ray: RayOut,
+    sphere: SphereOut,
+    method: &'static str,
+    class: &'static str,
+    near: Option<Number>,
+    far: Option<Number>,
+    place: Option<&'static str>,
+    visible: Option<Number>,
+    precision: &'static str,
+    a: Number,
+    b: Number,
+    c: Number,
+    discriminant: Number,
+    errors: Errors,
+    truth: Answer,
+    verdict: Option<String>,
+    steps: Vec<StepOut<'a>>,
+}
+
+impl<'a> Document<'a> {
+    fn new(ray: &Ray, sphere: &Sphere, trace: &'a Trace) -> Self {
+        let solution = trace.solution;
+        let Answer { class, near, far } = Answer::new(solution);
+        Self {
+            ray: RayOut {
+                origin: ray.origin.to_array(),
+                direction: ray.direction.to_array(),
+            },
+            sphere: SphereOut {
+                center: sphere.center.to_array(),
+                radius: sphere.radius,
+            },
+            method: trace.method.name(),
+            class,
+            near,
+            far,
+            place: solution.place().map(Place::name),
+            visible: solution.visible().map(Number::binary32),
+            precision: precision(trace.a.precision),
+            a: Number::of(&trace.a),
+            b: Number::of(&trace.b),
+            c: Number::of(&trace.c),
+            discriminant: Number::of(&trace.discriminant),
+            errors: Errors {
+                a: Error::of(&trace.a),
+                b: Error::of(&trace.b),
+                c: Error::of(&trace.c),
+                discriminant: Error::of(&trace.discriminant),
+                near: trace.near.as_ref().map(Error::of),
+                far: trace.far.as_ref().map(Error::of),
+            },
+            truth: Answer::new(trace.truth),
+            verdict: trace.verdict(Signs::Ascii),
+            steps: trace.steps.iter().map(StepOut::new).collect(),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct RayOut {
+    origin: [f32; 3],
+    direction: [f32; 3],
+}
+
+#[derive(Serialize)]
+struct SphereOut {
+    center: [f32; 3],
+    radius: f32,
+}
+
+#[derive(Serialize)]
+struct Errors {
+    a: Error,
+    b: Error,
+    c: Error,
+    discriminant: Error,
+    near: Option<Error>,
+    far: Option<Error>,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    class: &'static str,
+    near: Option<Number>,
+    far: Option<Number>,
+}
+
+impl Answer {
+    fn new(solution: Solution) -> Self {
+        let root = |t| (solution.class != Class::Miss).then(|| Number::binary32(t));
+        Self {
+            class: solution.class.name(),
+            near: root(solution.near),
+            far: root(solution.far),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct StepOut<'a> {
+    symbol: &'a str,
+    formula: &'a str,
+    numbers: &'a str,
+    precision: &'static str,
+    result: Vec<MeasuredOut>,
+    why: &'a str,
+    code: &'a str,
+    bits_lost: u32,
+    losses: Vec<LossOut<'a>>,
+}
+
+impl<'a> StepOut<'a> {
+    fn new(step: &'a Step) -> Self {
+        let parts = step.result.parts();
+        Self {
+            symbol: step.symbol,
+            formula: step.formula,
+            numbers: &step.numbers,
+            precision: precision(parts[0].precision),
+            result: parts.iter().map(MeasuredOut::new).collect(),
+            why: step.why,
+            code: step.code,
+            bits_lost: step.bits_lost(),
+            losses: step.losses.iter().map(LossOut::new).collect(),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct LossOut<'a> {
+    kind: &'static str,
+    bits: u32,
+    operands: &'a [String; 2],
+    text: String,
+}
+
+impl<'a> LossOut<'a> {
+    fn new(loss: &'a Loss) -> Self {
+        Self {
+            kind: match loss.kind {
+                LossKind::Cancelled { .. } => "cancelled",
+                LossKind::Absorbed { .. } => "absorbed",
+                LossKind::Underflowed => "underflowed",
+                LossKind::Overflowed => "overflowed",
+                LossKind::Invalid => "invalid",
+            },
+            bits: loss.bits(),
+            operands: &loss.operands,
+            text: loss.sentence(Signs::Typographic),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct MeasuredOut {
+    value: Number,
+    #[serde(flatten)]
+    error: Error,
+}
+
+impl MeasuredOut {
+    fn new(measured: &Measured) -> Self {
+        Self {
+            value: Number::of(measured),
+            error: Error::of(measured),
+        }
+    }
+}
+
+#[derive(Serialize)]
+struct Error {
+    exact: Option<String>,
+    ulps: Option<Number>,
+}
+
+impl Error {
+    fn of(measured: &Measured) -> Self {
+        let exact = |value: &Surd| format::exact(value, DIGITS, Signs::Ascii);
+        Self {
+            exact: measured.exact.as_ref().map(exact),
+            ulps: measured.ulps().map(|value| Number {
+                value,
+                precision: Precision::Binary64,
+            }),
+        }
+    }
+}
+
+/// A number of the machine.
+struct Number {
+    value: f64,
+    precision: Precision,
+}
+
+impl Number {
+    fn of(measured: &Measured) -> Self {
+        Self {
+            value: measured.value,
+            precision: measured.precision,
+        }
+    }
+
+    fn binary32(value: f32) -> Self {
+        Self {
+            value: value.into(),
+            precision: Precision::Binary32,
+        }
+    }
+}
+
+impl Serialize for Number {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        if !self.value.is_finite() {
+            return serializer.collect_str(&format::binary64(self.value, Signs::Ascii));
+        }
+        match self.precision {
+            Precision::Binary32 => serializer.serialize_f32(self.value as f32),
+            Precision::Binary64 => serializer.serialize_f64(self.value),
+        }
+    }
+}
+
+fn precision(precision: Precision) -> &'static str {
+    match precision {
+        Precision::Binary32 => "binary32",
+        Precision::Binary64 => "binary64",
+    }
+}

@@ -1,0 +1,273 @@
+//! The rows of a CSV file as they were written, each with the number of its line.
+//!
+//! One row is held at a time. A quote that is never closed spoils its own line alone.
+
+use std::collections::VecDeque;
+use std::io::{self, BufRead, Read};
+
+use csv_core::ReadRecordResult;
+
+/// The most bytes that a row may have.
+const LONGEST: usize = 1 << 16;
+
+/// A byte order mark, which some programs write before the header.
+const BOM: &[u8] = "\u{feff}".as_bytes();
+
+/// Reads rows one by one.
+pub(super) struct Rows<R> {
+    input: R,
+    /// Lines that were read in search of a closing quote and are rows of their own.
+    held_back: VecDeque<Vec<u8>>,
+    /// Lines taken so far.
+    lines: u64,
+    splitter: csv_core::Reader,
+}
+
+/// One row: its text, and its fields without their quotes.
+#[derive(Debug, Default)]
+pub(super) struct Row {
+    /// The number of its first line, from 1.
+    pub line: u64,
+    /// The text as it was read, line ends inside it and at its end included.
+    text: Vec<u8>,
+    contents: Vec<u8>,
+    ends: Vec<usize>,
+    fields: usize,
+    /// Whether all quotes in it are closed.
+    pub closed: bool,
+}
+
+impl<R: BufRead> Rows<R> {
+    /// The rows of `input`, from its first line.
+    pub fn new(input: R) -> Self {
+        Self {
+            input,
+            held_back: VecDeque::new(),
+            lines: 0,
+            splitter: csv_core::Reader::new(),
+        }
+    }
+
+    /// Reads the next row that is not an empty line, of `expected` fields if it extends over
+    /// several lines; false at the end.
+    pub fn read(&mut self, row: &mut Row, expected: Option<usize>) -> io::Result<bool> {
+        loop {
+            row.line = self.lines + 1;
+            row.text.clear();
+            if !self.take_line(&mut row.text)? {
+                return Ok(false);
+            }
+            self.lines += 1;
+            if row.line == 1 && row.text.starts_with(BOM) {
+                row.text.drain(..BOM.len());
+            }
+            if !row.bare_text().is_empty() {
+                break;
+            }
+        }
+        self.split(row);
+        if !row.closed {
+            self.read_on(row, expected)?;
+        }
+        Ok(true)
+    }
+
+    /// Appends the next line with its end; false at the end of the input.
+    fn take_line(&mut self, text: &mut Vec<u8>) -> io::Result<bool> {
+        if let Some(line) = self.held_back.pop_front() {
+            text.extend(line);
+            return Ok(true);
+        }
+        let most = LONGEST as u64 + 1;
+        let taken = (&mut self.input).take(most).read_until(b'\n', text)?;
+        if taken > LONGEST {
+            return Err(io::Error::other(format!(
+                "line {} is longer than {LONGEST} bytes",
+                self.lines + 1
+            )));
+        }
+        Ok(taken > 0)
+    }
+
+    /// Looks in the lines after an open quote for its end; if that makes no row, leaves them.
+    fn read_on(&mut self, row: &mut Row, expected: Option<usize>) -> io::Result<()> {
+        let first = row.text.len();
+        let mut starts = vec![first];
+        while row.text.len() <= LONGEST && self.take_line(&mut row.text)? {
+            let newest = starts[starts.len() - 1];
+            let quoted = row.text[newest..].contains(&b'"');
+            starts.push(row.text.len());
+            if quoted {
+                self.split(row);
+                if row.closed {
+                    break;
+                }
+            }
+        }
+        if row.closed && expected.is_none_or(|count| count == row.fields) {
+            self.lines += starts.len() as u64 - 1;
+            return Ok(());
+        }
+        for bounds in starts.windows(2).rev() {
+            self.held_back
+                .push_front(row.text[bounds[0]..bounds[1]].to_vec());
+        }
+        row.text.truncate(first);
+        self.split(row);
+        Ok(())
+    }
+
+    /// Finds the fields of the row's text, and whether its quotes are closed.
+    fn split(&mut self, row: &mut Row) {
+        let text = &row.text[..row.bare_length()];
+        // Room for a comma at each place, and for the end.
+        if row.ends.len() < text.len() + 2 {
+            row.contents.resize(text.len() + 1, 0);
+            row.ends.resize(text.len() + 2, 0);
+        }
+
+        let (written, fields) = self.start(text, &mut row.contents, &mut row.ends);
+        let (contents, ends) = (&mut row.contents[written..], &mut row.ends[fields..]);
+        let (result, ..) = self.splitter.read_record(b"\n", contents, ends);
+        row.closed = result == ReadRecordResult::Record;
+        row.fields = fields + 1;
+        if !row.closed {
+            // The line end went into the open field; once more, with the end of input instead.
+            let (written, fields) = self.start(text, &mut row.contents, &mut row.ends);
+            let (contents, ends) = (&mut row.contents[written..], &mut row.ends[fields..]);
+            self.splitter.read_record(b"", contents, ends);
+        }
+    }
+
+    /// Splits `text` but for its end; bytes and ends of fields written.
+    fn start(&mut self, text: &[u8], contents: &mut [u8], ends: &mut [usize]) -> (usize, usize) {
+        self.splitter.reset();
+        let (_, _, written, fields) = self.splitter.read_record(text, contents, ends);
+        (written, fields)
+    }
+}
+
+impl Row {
+    /// The text without the line end after it.
+    pub fn bare_text(&self) -> &[u8] {
+        &self.text[..self.bare_length()]
+    }
+
+    fn bare_length(&self) -> usize {
+        self.text.len() - self.line_end().len()
+    }
+
+    /// The line end that the row was read with; empty if the input ended without one.
+    pub fn line_end(&self) -> &'static [u8] {
+        [&b"\r\n"[..], b"\n"]
+            .into_iter()
+            .find(|end| self.text.ends_with(end))
+            .unwrap_or(b"")
+    }
+
+    /// Number of fields.
+    pub fn len(&self) -> usize {
+        self.fields
+    }
+
+    /// The contents of a field, counted from 0.
+    pub fn get(&self, field: usize) -> Option<&[u8]> {
+        let end = *self.ends[..self.fields].get(field)?;
+        let start = field.checked_sub(1).map_or(0, |before| self.ends[before]);
+        self.contents.get(start..end)
+    }
+
+    /// The contents of all fields.
+    pub fn iter(&self) -> impl Iterator<Item = &[u8]> {
+        (0..self.fields).map(|i| self.get(i).unwrap_or_default())
+    }
+}
+
+/// Appends a field to a row of CSV, in quotes if it needs them.
+pub(super) fn push_field(row: &mut Vec<u8>, contents: &[u8]) {
+    if !contents.iter().any(|b| b"\",\r\n".contains(b)) {
+        row.extend_from_slice(contents);
+        return;
+    }
+    row.push(b'"');
+    for &byte in contents {
+        if byte == b'"' {
+            row.push(b'"');
+        }
+        row.push(byte);
+    }
+    row.push(b'"');
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Line, fields and whether they are closed, of each row of a file of `count` columns.
+    fn rows(text: &str, count: usize) -> Vec<(u64, Vec<String>, bool)> {
+        let mut rows = Rows::new(text.as_bytes());
+        let mut row = Row::default();
+        let mut found = Vec::new();
+        while rows.read(&mut row, Some(count)).unwrap() {
+            let fields = row.iter().map(|f| String::from_utf8(f.to_vec()).unwrap());
+            found.push((row.line, fields.collect(), row.closed));
+        }
+        found
+    }
+
+    fn row(line: u64, fields: &[&str]) -> (u64, Vec<String>, bool) {
+        (line, fields.iter().map(|&f| f.to_owned()).collect(), true)
+    }
+
+    #[test]
+    fn counts_lines_through_empty_ones_and_either_line_end() {
+        let found = rows("\u{feff}a,b\r\n\r\n1,\n\n\n,2\r\n3,4", 2);
+        let expected = [
+            row(1, &["a", "b"]),
+            row(3, &["1", ""]),
+            row(6, &["", "2"]),
+            row(7, &["3", "4"]),
+        ];
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn takes_quotes_and_what_they_hold() {
+        let found = rows("\"a \"\"x\"\"\",\"1,2\"\n\"two\nlines\",b\n5\" nail,c\n", 2);
+        let expected = [
+            row(1, &["a \"x\"", "1,2"]),
+            row(2, &["two\nlines", "b"]),
+            row(4, &["5\" nail", "c"]),
+        ];
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn an_open_quote_spoils_its_own_line_alone() {
+        let expected = [
+            (1, vec!["a".to_owned(), "b,c".to_owned()], false),
+            row(2, &["1", "2", "3"]),
+            row(3, &["4", "5", "6"]),
+        ];
+        assert_eq!(rows("a,\"b,c\n1,2,3\n4,5,6\n", 3), expected);
+        // The quote that would close it makes no row of three fields.
+        let mut found = rows("a,\"b,c\n1,2,3\n4,5,6\n7,8,\"9\"\n", 3);
+        assert_eq!(found.pop(), Some(row(4, &["7", "8", "9"])));
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn refuses_a_line_without_end() {
+        let mut rows = Rows::new(io::BufReader::new(io::repeat(b'1')));
+        let error = rows.read(&mut Row::default(), None).unwrap_err();
+        assert_eq!(error.to_string(), "line 1 is longer than 65536 bytes");
+    }
+
+    #[test]
+    fn quotes_what_needs_it() {
+        let mut row = Vec::new();
+        push_field(&mut row, b"plain");
+        push_field(&mut row, b"a,\"b\"\n");
+        assert_eq!(row, b"plain\"a,\"\"b\"\"\n\"");
+    }
+}

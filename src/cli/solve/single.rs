@@ -1,0 +1,103 @@
+//! `solve --ray … --sphere …`: the derivation of one intersection, as text or as JSON.
+
+use std::fmt::{self, Write as _};
+
+use super::{Format, input, json};
+use crate::geometry::{Ray, Sphere};
+use crate::method::format::{Signs, binary32};
+use crate::method::trace::{self, Measured, Trace};
+use crate::method::{Class, Method};
+
+/// Digits of exact values in the text.
+const DIGITS: usize = 25;
+
+/// The derivation of one intersection, or what is wrong with the numbers.
+pub(super) fn written(
+    ray: &str,
+    sphere: &str,
+    method: Method,
+    format: Format,
+) -> Result<String, String> {
+    let (ray, sphere) = input::ray_and_sphere(ray, sphere)?;
+    let trace = method.trace(&ray, &sphere);
+    Ok(match format {
+        Format::Text => text(&ray, &sphere, &trace),
+        Format::Json => json::text(&ray, &sphere, &trace),
+    })
+}
+
+fn text(ray: &Ray, sphere: &Sphere, trace: &Trace) -> String {
+    let mut out = String::new();
+    // Writing to a `String` cannot fail.
+    let _ = write_text(&mut out, ray, sphere, trace);
+    out
+}
+
+fn write_text(out: &mut String, ray: &Ray, sphere: &Sphere, trace: &Trace) -> fmt::Result {
+    let signs = Signs::Typographic;
+    let vector = |v: glam::Vec3| {
+        let [x, y, z] = v.to_array().map(|x| binary32(x, signs));
+        format!("({x}, {y}, {z})")
+    };
+    writeln!(
+        out,
+        "ray     p0 {}  d {}",
+        vector(ray.origin),
+        vector(ray.direction)
+    )?;
+    let radius = binary32(sphere.radius, signs);
+    writeln!(out, "sphere  c {}  r {radius}", vector(sphere.center))?;
+    writeln!(out, "method  {}\n", trace.method)?;
+    trace::write(trace, out, signs, DIGITS)?;
+    write_answer(out, trace, signs)
+}
+
+/// The class and the roots, and what is right where they are wrong.
+fn write_answer(out: &mut String, trace: &Trace, signs: Signs) -> fmt::Result {
+    let class = trace.solution.class;
+    let meaning = match class {
+        Class::Miss => "Δ < 0: the line misses the sphere",
+        Class::Tangent => "Δ = 0: the line touches the sphere in one point",
+        Class::Secant => "Δ > 0: the line crosses the sphere in two points",
+        Class::Nan => "Δ is not a number: the method has no answer",
+    };
+    writeln!(out, "{class}  {meaning}")?;
+    let mut root = |name, measured: &Option<Measured>| match measured {
+        None => Ok(()),
+        Some(root) => {
+            let value = root.shortest(signs);
+            match root.ulps() {
+                Some(0.0) => writeln!(out, "{name} = {value}, exactly"),
+                Some(ulps) => {
+                    let exact = root.exact_text(DIGITS, signs).unwrap_or_default();
+                    if root.is_correctly_rounded() {
+                        return writeln!(out, "{name} = {value}, {exact} rounded once");
+                    }
+                    let ulps = trace::ulps_text(ulps, signs);
+                    writeln!(out, "{name} = {value}, {ulps} ulp from {exact}")
+                }
+                None => writeln!(out, "{name} = {value}, but there is no such root"),
+            }
+        }
+    };
+    root("near", &trace.near)?;
+    root("far", &trace.far)?;
+    match (trace.solution.place(), trace.solution.visible()) {
+        (Some(place), Some(t)) => {
+            writeln!(
+                out,
+                "{}: the ray sees it at t = {}",
+                place.name(),
+                binary32(t, signs)
+            )?;
+        }
+        (Some(place), None) => {
+            writeln!(out, "{}: the line meets it, the ray does not", place.name())?;
+        }
+        (None, _) => {}
+    }
+    match trace.verdict(signs) {
+        Some(verdict) => writeln!(out, "WRONG: {verdict}"),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,212 @@
+//! The steps of a derivation as lines of text: one step large, and the list of all.
+
+use super::derivation::{Question, Step};
+use super::panel::{Line, Role};
+
+/// How a step is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct StepLook {
+    /// The result is kept back until the person has thought about it.
+    pub hidden: bool,
+    /// The result is another one than before the last move.
+    pub changed: bool,
+}
+
+/// What stands for a result that is kept back.
+const HIDDEN: &str = "?";
+
+/// One step, in lines of at most `width` characters.
+pub fn step_lines(step: &Step, width: usize, look: StepLook) -> Vec<Line> {
+    let mut out = Vec::new();
+    out.extend(wrapped(&step.why, width, Role::Plain, "", 2));
+    out.push(Line::new(5));
+    let name = format!("{} = ", step.name);
+    let head = if step.formula.contains('=') || step.name.len() > 4 {
+        String::new()
+    } else {
+        name
+    };
+    out.extend(wrapped(
+        &format!("{head}{}", step.formula),
+        width,
+        Role::Formula,
+        "",
+        0,
+    ));
+    if !step.numbers.is_empty() {
+        out.extend(wrapped(&step.numbers, width, Role::Plain, "= ", 1));
+    }
+    if look.hidden {
+        out.extend(wrapped(HIDDEN, width, Role::Value, "= ", 0));
+    } else if !step.result.is_empty() {
+        let role = if look.changed {
+            Role::Changed
+        } else {
+            Role::Value
+        };
+        out.extend(wrapped(&step.result, width, role, "= ", 0));
+    }
+    if !look.hidden {
+        out.extend(loss_lines(step, width));
+    }
+    if !step.code.is_empty() {
+        out.push(Line::new(5));
+        out.extend(wrapped(&step.code, width, Role::Faint, "", 3));
+    }
+    out
+}
+
+/// A question that waits for an answer, and the keys that answer it.
+pub fn question_lines(question: Question, width: usize) -> Vec<Line> {
+    let mut out = vec![Line::new(4)];
+    out.extend(wrapped(question.text(), width, Role::Label, "", 0));
+    let answers = question.answers();
+    let keys = answers.map(|(key, word)| format!("{key} {word}"));
+    out.extend(wrapped(&keys.join("   "), width, Role::Plain, "", 0));
+    out
+}
+
+/// What rounding did in this step.
+fn loss_lines(step: &Step, width: usize) -> Vec<Line> {
+    let mut out = Vec::new();
+    if let Some(exact) = &step.exact {
+        out.extend(wrapped(
+            &format!("exactly {exact}"),
+            width,
+            Role::Faint,
+            "",
+            1,
+        ));
+    }
+    for (i, loss) in step.losses.iter().enumerate() {
+        let (role, text) = if step.first_heavy && i == 0 {
+            (
+                Role::Warning,
+                format!("{loss}: the first step to lose much"),
+            )
+        } else {
+            (Role::Faint, loss.clone())
+        };
+        out.extend(wrapped(&text, width, role, "", 1));
+    }
+    out
+}
+
+/// The names of all steps, wrapped, the current one marked; those whose result has changed have a
+/// star, the first that loses much an exclamation mark.
+pub fn step_list(steps: &[Step], current: usize, changed: &[bool], width: usize) -> Vec<Line> {
+    let mut out = Vec::new();
+    let mut line = Line::new(4);
+    for (i, step) in steps.iter().enumerate() {
+        let mut name = step.name.clone();
+        if step.first_heavy {
+            name.push('!');
+        }
+        if changed.get(i).copied().unwrap_or(false) {
+            name.push('*');
+        }
+        let (role, text) = if i == current {
+            (Role::Current, format!("[{name}]"))
+        } else if step.first_heavy {
+            (Role::Warning, format!(" {name} "))
+        } else {
+            (Role::Faint, format!(" {name} "))
+        };
+        if line.width() + text.chars().count() > width && line.width() > 0 {
+            out.push(std::mem::replace(&mut line, Line::new(4)));
+        }
+        line = line.with(role, text);
+    }
+    out.push(line);
+    out
+}
+
+/// The whole derivation as plain text, a paragraph for each step.
+pub fn steps_text(steps: &[Step], width: usize) -> String {
+    let mut out = String::new();
+    for (i, step) in steps.iter().enumerate() {
+        out = out + &(i + 1).to_string() + ". " + &step.name + "\n";
+        let lines = step_lines(
+            step,
+            width.saturating_sub(INDENT.len()),
+            StepLook::default(),
+        );
+        let texts = lines.iter().map(Line::text).filter(|t| !t.is_empty());
+        for text in texts {
+            out = out + INDENT + &text + "\n";
+        }
+        out.push('\n');
+    }
+    out
+}
+
+/// Where a step's lines stand under its name.
+const INDENT: &str = "    ";
+
+/// Text in lines of at most `width` characters; lines after the first stand under it.
+fn wrapped(text: &str, width: usize, role: Role, lead: &str, spare: u8) -> Vec<Line> {
+    let room = width.saturating_sub(lead.chars().count()).max(1);
+    wrap(text, room)
+        .into_iter()
+        .enumerate()
+        .map(|(i, part)| {
+            let lead = if i == 0 {
+                lead.to_owned()
+            } else {
+                " ".repeat(lead.chars().count())
+            };
+            Line::new(spare).with(Role::Plain, lead).with(role, part)
+        })
+        .collect()
+}
+
+/// The words of `text` in lines of at most `width` characters; a longer word is cut in pieces.
+pub fn wrap(text: &str, width: usize) -> Vec<String> {
+    let width = width.max(1);
+    let mut lines = Vec::new();
+    let mut line = String::new();
+    let mut room = width;
+    for word in text.split_whitespace() {
+        let letters: Vec<char> = word.chars().collect();
+        if !line.is_empty() && letters.len() + 1 > room {
+            lines.push(std::mem::take(&mut line));
+            room = width;
+        }
+        if !line.is_empty() {
+            line.push(' ');
+            room -= 1;
+        }
+        for piece in letters.chunks(width) {
+            if piece.len() > room {
+                lines.push(std::mem::take(&mut line));
+                room = width;
+            }
+            line.extend(piece);
+            room -= piece.len();
+        }
+    }
+    if !line.is_empty() || lines.is_empty() {
+        lines.push(line);
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #[test]
+        fn wrapped_lines_hold_every_word_and_no_more_than_the_width(
+            text in "[a-zé ]{0,80}",
+            width in 1..30_usize,
+        ) {
+            let lines = wrap(&text, width);
+            prop_assert!(lines.iter().all(|l| l.chars().count() <= width));
+            let letters = |s: &str| s.chars().filter(|c| *c != ' ').collect::<String>();
+            prop_assert_eq!(letters(&lines.concat()), letters(&text));
+        }
+    }
+}

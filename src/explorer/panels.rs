@@ -1,0 +1,197 @@
+//! Draws the panels beside the picture, and the board.
+
+use ratatui::layout::Rect;
+
+use super::Explorer;
+use super::draw::Pen;
+use super::large;
+use super::layout;
+use super::panel::Panel;
+use super::stepping::Prediction;
+use super::theme::Theme;
+use crate::explain::{self, Line, Reading, StepLook, Subject};
+
+impl Explorer {
+    /// All panels that have room.
+    pub(super) fn draw_panels(&self, pen: &mut Pen<'_>, side: Rect) {
+        for (panel, area) in Panel::tiles(side, self.panel) {
+            self.draw_panel(pen, panel, area);
+        }
+    }
+
+    fn draw_panel(&self, pen: &mut Pen<'_>, panel: Panel, area: Rect) {
+        let Some(reading) = &self.picture.reading else {
+            return;
+        };
+        let room = text_room(area);
+        let (title, lines) = match panel {
+            Panel::Quadratic => self.quadratic_panel(reading, room),
+            Panel::Steps => self.steps_panel(room),
+            Panel::Slice | Panel::Curve => self.figure_panel(panel, reading, room),
+            Panel::Bits => self.bits_panel(room),
+            Panel::Compare => self.compare_panel(reading, room),
+        };
+        // Only the panel that the person asked for scrolls.
+        let hidden = lines.len().saturating_sub(room.height.into());
+        let scroll = if panel == self.panel {
+            self.scroll.min(hidden)
+        } else {
+            0
+        };
+        let foot = match (scroll, hidden - scroll) {
+            (0, 0) => self.panel_foot(panel),
+            (_, 0) => format!("{scroll} lines above: pageup"),
+            (_, below) => format!("{below} lines below: pagedown"),
+        };
+        pen.frame(area, &title, &foot);
+        pen.lines(room, &lines[scroll..]);
+    }
+
+    fn panel_foot(&self, panel: Panel) -> String {
+        let Prediction {
+            on, right, asked, ..
+        } = self.prediction;
+        match panel {
+            Panel::Steps if on && asked > 0 => format!("{right} of {asked} foreseen"),
+            Panel::Steps => ", . step  < > ends".into(),
+            Panel::Slice | Panel::Curve => "( ) move along the ray  / back".into(),
+            Panel::Bits => ", . another number".into(),
+            Panel::Compare => "C another method".into(),
+            Panel::Quadratic => String::new(),
+        }
+    }
+
+    fn quadratic_panel(&self, reading: &Reading, room: Rect) -> (String, Vec<Line>) {
+        let (x, y) = reading.pixel;
+        let lines = explain::lines(reading, room.width.into(), self.digits());
+        let title = format!("ray of pixel ({x}, {y})");
+        (title, explain::fit(lines, room.height.into()))
+    }
+
+    /// The step, and under it the list of all steps, which always stays.
+    fn steps_panel(&self, room: Rect) -> (String, Vec<Line>) {
+        let steps = &self.picture.steps;
+        let Some(step) = self.current_step() else {
+            return (
+                "steps".into(),
+                vec![Line::plain("The scene has no spheres.")],
+            );
+        };
+        let at = self.step_at.min(steps.len() - 1);
+        let width = room.width.into();
+        let list = explain::step_list(steps, at, &self.picture.changed, width);
+        let look = StepLook {
+            hidden: self.is_hidden(),
+            changed: self.picture.changed.get(at).copied().unwrap_or(false),
+        };
+        let mut lines = explain::step_lines(step, width, look);
+        if let Some(question) = self.pending_question() {
+            lines.extend(explain::question_lines(question, width));
+        }
+        let space = usize::from(room.height).saturating_sub(list.len() + 1);
+        let mut lines = explain::fit(lines, space);
+        if lines.len() < space {
+            lines.resize(space, Line::default());
+        }
+        lines.push(Line::default());
+        lines.extend(list);
+        let title = format!("step {} of {}: {}", at + 1, steps.len(), step.name);
+        (title, lines)
+    }
+
+    fn figure_panel(&self, panel: Panel, reading: &Reading, room: Rect) -> (String, Vec<Line>) {
+        let Some(subject) = &reading.subject else {
+            return (
+                panel.name().into(),
+                vec![Line::plain("The scene has no spheres.")],
+            );
+        };
+        let t = self.moving_t();
+        let (cols, rows) = (room.width.into(), room.height.into());
+        let glyphs = self.options.glyphs;
+        match panel {
+            Panel::Slice => (
+                "slice through ray and centre".into(),
+                explain::slice(subject, &reading.ray, t, cols, rows, glyphs),
+            ),
+            _ => (
+                "f(t) = At² + Bt + C".into(),
+                explain::curve(subject, &reading.ray, t, cols, rows, glyphs),
+            ),
+        }
+    }
+
+    /// The bits of the number that the step gives; for a step without one, of Δ.
+    fn bits_panel(&self, room: Rect) -> (String, Vec<Line>) {
+        let step = self.current_step().filter(|s| s.number.is_some());
+        let of_step = step.and_then(|s| Some((s.name.as_str(), s.number.as_ref()?)));
+        let subject = self.reading().and_then(|r| r.subject.as_ref());
+        let of_subject = || Some(("Δ", &subject?.trace.discriminant));
+        let Some((name, number)) = of_step.or_else(of_subject) else {
+            return (
+                "bits".into(),
+                vec![Line::plain("The scene has no spheres.")],
+            );
+        };
+        let lines = explain::measured_bits(name, number, room.width.into());
+        (format!("bits of {name}"), lines)
+    }
+
+    fn compare_panel(&self, reading: &Reading, room: Rect) -> (String, Vec<Line>) {
+        let title = format!("{} beside {}", reading.method, self.other_method());
+        let Some(subject) = &reading.subject else {
+            return (title, vec![Line::plain("The scene has no spheres.")]);
+        };
+        let Subject { trace, sphere, .. } = subject;
+        let other = self.other_method().trace(&reading.ray, sphere);
+        (title, explain::comparison(trace, &other, room.width.into()))
+    }
+
+    /// One step as large as the screen allows; its answer hidden until the key.
+    pub(super) fn draw_board(&self, pen: &mut Pen<'_>, area: Rect) {
+        let Some(step) = self.current_step() else {
+            return;
+        };
+        let at = self.step_at.min(self.picture.steps.len() - 1);
+        let title = format!(
+            "step {} of {}: {}",
+            at + 1,
+            self.picture.steps.len(),
+            step.name
+        );
+        let foot = if self.is_hidden() {
+            "enter: the answer"
+        } else {
+            "enter: the next step   O: back to the picture"
+        };
+        pen.frame(area, &title, foot);
+        let room = text_room(area);
+        let result = if self.is_hidden() { "?" } else { &step.result };
+        // The result is what the back row must read: it has the larger part.
+        let y = large::draw(pen, room, room.y + 1, room.height / 4, &step.formula);
+        let y = large::draw(pen, room, y + 1, room.height / 2, &format!("= {result}"));
+        let small = [
+            (step.numbers.as_str(), Theme::faint()),
+            (step.why.as_str(), Theme::plain()),
+        ];
+        let mut y = y + 1;
+        for (text, style) in small {
+            for line in explain::wrap(text, room.width.into()) {
+                if y < room.bottom() {
+                    pen.text(room.x, y, room.width, &line, style);
+                    y += 1;
+                }
+            }
+        }
+    }
+}
+
+/// What is inside a panel's border, a blank away from it.
+fn text_room(area: Rect) -> Rect {
+    let room = layout::inner(area);
+    Rect {
+        x: room.x + 1,
+        width: room.width.saturating_sub(2),
+        ..room
+    }
+}

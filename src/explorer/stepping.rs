@@ -1,0 +1,176 @@
+//! Walking through the derivation of a pixel: steps, predictions, the moving point.
+
+use super::Explorer;
+use super::act::turn;
+use super::key::Key;
+use super::panel::Panel;
+use crate::explain::{Question, Step};
+use crate::method::Method;
+
+/// A step of the moving point, in radii.
+const SCRUB: f64 = 1.0 / 16.0;
+
+/// Predict, then reveal: whether results are kept back, and how the guesses went. Nothing of it is
+/// stored anywhere.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(super) struct Prediction {
+    pub(super) on: bool,
+    /// The result of the step shown has been revealed.
+    pub(super) revealed: bool,
+    pub(super) right: u32,
+    pub(super) asked: u32,
+}
+
+impl Explorer {
+    /// The step that is shown.
+    pub(super) fn current_step(&self) -> Option<&Step> {
+        let last = self.picture.steps.len().checked_sub(1)?;
+        self.picture.steps.get(self.step_at.min(last))
+    }
+
+    /// Whether the result of the step shown is kept back.
+    pub(super) const fn is_hidden(&self) -> bool {
+        (self.prediction.on || self.board) && !self.prediction.revealed
+    }
+
+    /// Opens the steps; with steps open, reveals the answer, else goes on.
+    pub(super) fn next_step(&mut self) {
+        let open = self.board || self.panel == Panel::Steps;
+        if !open {
+            self.panel = Panel::Steps;
+        } else if self.is_hidden() {
+            self.prediction.revealed = true;
+        } else {
+            self.go_to_step(self.step_at + 1);
+        }
+    }
+
+    pub(super) fn go_to_step(&mut self, at: usize) {
+        let last = self.picture.steps.len().saturating_sub(1);
+        if !self.board && self.panel != Panel::Bits {
+            self.panel = Panel::Steps;
+        }
+        if at > last && self.step_at == last && at != usize::MAX {
+            self.say("That was the last step. < goes back to the first.");
+        }
+        if self.step_at != at.min(last) {
+            self.prediction.revealed = false;
+        }
+        self.step_at = at.min(last);
+    }
+
+    pub(super) fn go_to_step_named(&mut self, name: &str) {
+        let steps = &self.picture.steps;
+        let by_name = steps.iter().position(|s| s.name == name);
+        let by_number = name.parse().ok().and_then(|n: usize| n.checked_sub(1));
+        let count = steps.len();
+        if let Some(at) = by_name.or(by_number).filter(|&at| at < count) {
+            self.go_to_step(at);
+        } else {
+            self.warn(format!(
+                "step: found “{name}”, expected a step's name or 1 to {count}"
+            ));
+        }
+    }
+
+    pub(super) fn toggle_prediction(&mut self) {
+        let on = !self.prediction.on;
+        self.prediction = Prediction {
+            on,
+            ..Prediction::default()
+        };
+        if on {
+            self.panel = Panel::Steps;
+            self.say("Predict first: results are hidden until you press enter.");
+        } else {
+            self.say("Results are shown again.");
+        }
+    }
+
+    /// The question that waits for an answer.
+    pub(super) fn pending_question(&self) -> Option<Question> {
+        let asked = self.prediction.on && self.is_hidden() && self.panel == Panel::Steps;
+        self.current_step().filter(|_| asked)?.question
+    }
+
+    /// Takes a key as the answer to the question on the screen; false if it is none.
+    pub(super) fn answer_prediction(&mut self, key: Key) -> bool {
+        let Some(question) = self.pending_question() else {
+            return false;
+        };
+        let answers = question.answers();
+        let given = key.typed();
+        let Some(at) = answers.iter().position(|(c, _)| Some(*c) == given) else {
+            return false;
+        };
+        let subject = self.reading().and_then(|r| r.subject.as_ref());
+        let right = subject.and_then(|s| question.right(s));
+        self.prediction.revealed = true;
+        self.prediction.asked += 1;
+        if right == Some(at) {
+            self.prediction.right += 1;
+            let Prediction { right, asked, .. } = self.prediction;
+            self.say(format!(
+                "Yes, {}. {right} of {asked} foreseen.",
+                answers[at].1
+            ));
+        } else {
+            let said = right.map_or("there is no answer", |at| answers[at].1);
+            self.say(format!(
+                "It is {said}. Look at the numbers of this step: why?"
+            ));
+        }
+        true
+    }
+
+    /// t of the moving point: where the person put it, else where something is seen, else where
+    /// the ray comes nearest to the centre.
+    pub(super) fn moving_t(&self) -> f64 {
+        let subject = self.reading().and_then(|r| r.subject.as_ref());
+        self.scrubbed.unwrap_or_else(|| {
+            subject.map_or(0.0, |s| match s.sight {
+                Some(sight) => sight.t.into(),
+                None => -s.coefficients.b / (2.0 * s.coefficients.a),
+            })
+        })
+    }
+
+    pub(super) fn scrub(&mut self, steps: f64) {
+        let subject = self.reading().and_then(|r| r.subject.as_ref());
+        let Some(subject) = subject else {
+            return self.say("There is no sphere to go along a ray to.");
+        };
+        let c = subject.coefficients;
+        let closest = (-c.b / (2.0 * c.a)).abs();
+        // Relative to the sphere where it is far away, so that its points can be told apart.
+        let radius = f64::from(subject.sphere.radius) / c.a.sqrt();
+        let length = if radius > 0.0 { radius } else { closest };
+        let t = self.moving_t() + steps * SCRUB * length;
+        if t.is_finite() {
+            self.scrubbed = Some(t);
+        }
+        if self.panel != Panel::Curve {
+            self.panel = Panel::Slice;
+        }
+    }
+
+    /// The method that the chosen one is compared with.
+    pub(super) fn other_method(&self) -> Method {
+        let method = self.options.method;
+        let next = || turn(&Method::ALL, method, 1);
+        self.other_method
+            .filter(|&m| m != method)
+            .unwrap_or_else(next)
+    }
+
+    pub(super) fn turn_comparison(&mut self) {
+        let next = turn(&Method::ALL, self.other_method(), 1);
+        let next = if next == self.options.method {
+            turn(&Method::ALL, next, 1)
+        } else {
+            next
+        };
+        self.other_method = Some(next);
+        self.panel = Panel::Compare;
+    }
+}
