@@ -1,14 +1,15 @@
 //! `rayscope bench`: error against run time.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 
 use super::progress::{INTERRUPTED, Progress};
-use super::{INVALID, choice, complain, write_out};
+use super::{INVALID, choice, complain, save, write_out};
 use crate::lab::bench::{self, MOST_TIMED, Plan, Report, Sample};
 use crate::lab::timing::{Schedule, SystemClock};
-use crate::lab::{Family, Machine};
+use crate::lab::{Family, Machine, plot};
 use crate::method::Method;
 use crate::render::{CELL_ASPECT, Style, fit};
 use crate::scene::{Rays, Scene};
@@ -39,6 +40,10 @@ pub(super) struct Bench {
     /// How many rays of each family
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     rays: Option<u32>,
+
+    /// Also draw a chart, as SVG
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
 
     /// How the report is written
     #[arg(long, value_enum, default_value_t = Format::Text)]
@@ -91,6 +96,9 @@ pub(super) fn run(arguments: &Bench) -> ExitCode {
         |number, name| progress.go_on(number, name),
     );
     progress.clear();
+    let drawn = save(arguments.plot.as_deref(), || {
+        plot::work_precision(&report, &Machine::detect())
+    });
     let written = match in_format(&report, arguments) {
         Ok(text) => write_out(&text),
         Err(sentence) => {
@@ -100,7 +108,7 @@ pub(super) fn run(arguments: &Bench) -> ExitCode {
     };
     if progress.interrupted() {
         ExitCode::from(INTERRUPTED)
-    } else if arguments.strict && !report.times_trusted() {
+    } else if arguments.strict && !report.times_trusted() || drawn.is_err() {
         ExitCode::from(INVALID)
     } else {
         written

@@ -10,6 +10,7 @@ mod stress;
 
 use std::fmt;
 use std::io::{ErrorKind, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -84,6 +85,16 @@ fn write_out(text: &str) -> ExitCode {
             ExitCode::from(INVALID)
         }
     }
+}
+
+/// Writes a file if one is asked for; says why if that fails.
+fn save(path: Option<&Path>, contents: impl FnOnce() -> String) -> Result<(), ()> {
+    let Some(path) = path else {
+        return Ok(());
+    };
+    std::fs::write(path, contents()).map_err(|error| {
+        complain(format_args!("cannot write {}: {error}", path.display()));
+    })
 }
 
 /// Says a sentence on standard error. If nobody can read it, nobody is missing it.

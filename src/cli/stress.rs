@@ -1,14 +1,15 @@
 //! `rayscope stress`: the stability sweeps.
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
 use super::progress::{INTERRUPTED, Progress};
-use super::{INVALID, choice, complain, write_out};
-use crate::lab::Dial;
+use super::{INVALID, choice, complain, save, write_out};
 use crate::lab::stress::{self, Plan, Report};
+use crate::lab::{Dial, plot};
 use crate::method::Method;
 
 /// Turn one dial after the other from tame to broken: where does each method break down?
@@ -33,6 +34,10 @@ pub(super) struct Stress {
     /// How many rays at each setting
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     rays: Option<u32>,
+
+    /// Also draw a chart, as SVG
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
 
     /// How the report is written
     #[arg(long, value_enum, default_value_t = Format::Text)]
@@ -64,6 +69,7 @@ pub(super) fn run(arguments: &Stress) -> ExitCode {
     };
     let report = stress::run(&plan, |number, name| progress.go_on(number, name));
     progress.clear();
+    let drawn = save(arguments.plot.as_deref(), || plot::stability(&report));
     let written = match in_format(&report, arguments.format) {
         Ok(text) => write_out(&text),
         Err(sentence) => {
@@ -73,7 +79,7 @@ pub(super) fn run(arguments: &Stress) -> ExitCode {
     };
     if progress.interrupted() {
         ExitCode::from(INTERRUPTED)
-    } else if report.promises_kept() {
+    } else if report.promises_kept() && drawn.is_ok() {
         written
     } else {
         ExitCode::from(INVALID)

@@ -30,7 +30,7 @@ impl Dial {
     pub const ALL: &'static [Self] = &[
         Self {
             name: "distance",
-            quantity: "|o|/r",
+            quantity: "‖o‖/r",
             about: "The sphere moves away; the line passes anywhere from its centre to half a radius beside it.",
             settings: [1, 60, 1],
             draw: distance,
@@ -54,7 +54,7 @@ impl Dial {
         },
         Self {
             name: "offset",
-            quantity: "|p0|/|o|",
+            quantity: "‖p0‖/‖o‖",
             about: "Ray and sphere together move away from the world's origin.",
             settings: [0, 22, 1],
             draw: offset,
@@ -78,7 +78,7 @@ impl Dial {
         },
         Self {
             name: "long",
-            quantity: "|d|",
+            quantity: "‖d‖",
             about: "Typical rays with a long direction.",
             settings: [0, 120, 2],
             draw: length,
@@ -86,7 +86,7 @@ impl Dial {
         },
         Self {
             name: "short",
-            quantity: "|d|",
+            quantity: "‖d‖",
             about: "Typical rays with a short direction.",
             settings: [0, -140, -2],
             draw: length,

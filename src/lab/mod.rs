@@ -8,6 +8,7 @@ mod errors;
 pub mod families;
 mod hexadecimal;
 mod machine;
+pub mod plot;
 pub mod promise;
 mod random;
 mod reference;
