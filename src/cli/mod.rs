@@ -2,6 +2,7 @@
 
 mod bench;
 mod explore;
+mod grade;
 mod print;
 mod progress;
 mod scenes;
@@ -30,6 +31,7 @@ struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     Bench(bench::Bench),
+    Grade(grade::Grade),
     Print(print::Print),
     Scenes(scenes::Scenes),
     Solve(solve::Solve),
@@ -42,6 +44,7 @@ pub fn main() -> ExitCode {
     match arguments.command {
         None => explore::run(&arguments.explore),
         Some(Command::Bench(arguments)) => bench::run(&arguments),
+        Some(Command::Grade(arguments)) => grade::run(&arguments),
         Some(Command::Print(arguments)) => print::run(&arguments),
         Some(Command::Scenes(arguments)) => scenes::run(&arguments),
         Some(Command::Solve(arguments)) => solve::run(&arguments),

@@ -253,10 +253,19 @@ impl Errors {
         references: &[Reference],
         solve: impl Fn(&Ray, &Sphere) -> Solution,
     ) -> Self {
+        let answers = problems.iter().map(|(ray, sphere)| solve(ray, sphere));
+        Self::of_answers(problems, references, answers)
+    }
+
+    /// Holds answers, one for each problem, against the truth.
+    pub fn of_answers(
+        problems: &[Problem],
+        references: &[Reference],
+        answers: impl IntoIterator<Item = Solution>,
+    ) -> Self {
         let mut errors = Self::default();
         let mut ulps = Vec::with_capacity(problems.len());
-        for (problem, truth) in problems.iter().zip(references) {
-            let answer = solve(&problem.0, &problem.1);
+        for ((problem, truth), answer) in problems.iter().zip(references).zip(answers) {
             errors.checksum.add(&answer);
             match judge(truth, &answer) {
                 Judgement::Wrong(fault) => {

@@ -6,14 +6,17 @@ pub mod bench;
 pub mod dials;
 mod errors;
 pub mod families;
+pub mod grade;
 mod hexadecimal;
 mod machine;
+pub mod picture;
 pub mod plot;
 pub mod promise;
 mod random;
 mod reference;
 pub mod stress;
 pub mod timing;
+mod turn;
 
 pub use dials::Dial;
 pub use errors::{

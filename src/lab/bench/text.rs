@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::{Chapter, Report, Row};
-use crate::lab::errors::{Fault, Worst};
+use crate::lab::errors::{Census, Errors, Fault, Worst};
 use crate::lab::hexadecimal::{hexadecimal, numbers};
 use crate::lab::machine::Machine;
 use crate::lab::timing::Nanoseconds;
@@ -76,7 +76,16 @@ fn section(chapter: &Chapter, worst: bool) -> String {
 }
 
 fn errors(chapter: &Chapter) -> String {
-    let census = &chapter.census;
+    let rows: Vec<_> = chapter
+        .rows
+        .iter()
+        .map(|row| (if row.pareto { '*' } else { ' ' }, row.method, &row.errors))
+        .collect();
+    error_lines(&chapter.census, &rows)
+}
+
+/// A line of errors for each entrant: a mark, a name, what it got wrong.
+pub(crate) fn error_lines(census: &Census, rows: &[(char, &str, &Errors)]) -> String {
     let mut out = String::from(
         "             false  false  wrong    not  error of the worse root in ulp\n  \
          method       hit   miss  count finite      p50      p99    p99.9  largest\n  of      ",
@@ -86,14 +95,13 @@ fn errors(chapter: &Chapter) -> String {
         let _ = write!(out, " {:>6}", census.denominator(fault));
     }
     out.push('\n');
-    for row in &chapter.rows {
-        let mark = if row.pareto { '*' } else { ' ' };
-        let _ = write!(out, "{mark} {:9}", row.method);
+    for (mark, name, errors) in rows {
+        let _ = write!(out, "{mark} {name:9}");
         for (i, fault) in Fault::ALL.into_iter().enumerate() {
             let width = if i == 0 { 6 } else { 7 };
-            let _ = write!(out, "{:>width$}", row.errors.wrong.of(fault));
+            let _ = write!(out, "{:>width$}", errors.wrong.of(fault));
         }
-        for value in percentiles(row) {
+        for value in percentiles(errors) {
             let _ = write!(out, "{:>9}", brief(value));
         }
         out.push('\n');
@@ -101,8 +109,8 @@ fn errors(chapter: &Chapter) -> String {
     out
 }
 
-fn percentiles(row: &Row) -> [f64; 4] {
-    let ulp = row.errors.ulp;
+fn percentiles(errors: &Errors) -> [f64; 4] {
+    let ulp = errors.ulp;
     [ulp.p50, ulp.p99, ulp.p999, ulp.max]
 }
 
@@ -239,7 +247,7 @@ pub fn error_table(chapter: &Chapter) -> String {
         for fault in Fault::ALL {
             let _ = write!(out, " {} |", row.errors.wrong.of(fault));
         }
-        for value in percentiles(row) {
+        for value in percentiles(&row.errors) {
             let _ = write!(out, " {} |", brief(value));
         }
         let input = row.errors.worst.map(|worst| input(&worst));

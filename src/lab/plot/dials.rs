@@ -2,12 +2,12 @@
 
 use super::svg::{Anchor, Marker, Stroke, Svg};
 use super::{INK, Panel, legend, look, power_label};
-use crate::lab::stress::{Cell, Report, Sweep};
+use crate::lab::stress::{Cell, Report, Sweep, bits_lost};
 
 const COLUMNS: usize = 2;
 const BITS: [f64; 2] = [420.0, 150.0];
 const RATES: f64 = 60.0;
-const GAP: [f64; 2] = [70.0, 92.0];
+const GAP: [f64; 2] = [70.0, 64.0];
 const LEFT: f64 = 62.0;
 const TOP: f64 = 92.0;
 
@@ -80,6 +80,7 @@ fn draw(svg: &mut Svg, at: [f64; 2], report: &Report, sweep: &Sweep) {
         svg.polyline(&line, stroke);
         bits_line(svg, &bits, stroke, cells().map(|(k, cell, _)| (k, cell)));
     }
+    inputs_line(svg, &bits, sweep);
     for (i, method) in report.methods.iter().enumerate() {
         let (color, marker) = look(method.name());
         mark(svg, &bits, sweep, i, marker, color);
@@ -150,7 +151,29 @@ fn bits_line<'a>(
     }
 }
 
-/// The method's marker where its line begins to climb, and a cross at its first wrong answer.
+/// What rounding the inputs cost, where the dial is about that.
+fn inputs_line(svg: &mut Svg, panel: &Panel, sweep: &Sweep) {
+    let line: Vec<[f64; 2]> = sweep
+        .steps
+        .iter()
+        .filter_map(|step| {
+            let worst = bits_lost(step.inputs?.ulp.max);
+            Some(panel.place(f64::from(step.k), worst))
+        })
+        .collect();
+    if let Some(&[x, y]) = line.get(line.len() / 2) {
+        let stroke = Stroke {
+            color: "#888888",
+            width: 2.0,
+            dashed: true,
+        };
+        svg.polyline(&line, stroke);
+        let label = "rounding p0, d, c, r, before any method";
+        svg.text([x - 8.0, y - 6.0], label, 10.0, INK, Anchor::End);
+    }
+}
+
+/// The method's marker on its line, and a cross at its first wrong answer.
 fn mark(
     svg: &mut Svg,
     panel: &Panel,

@@ -7,14 +7,18 @@ use crate::lab::bench::{Chapter, Report, Row};
 use crate::lab::machine::Machine;
 
 const COLUMNS: usize = 3;
-const PANEL: [f64; 2] = [290.0, 170.0];
+const PANEL: [f64; 2] = [320.0, 170.0];
 /// Room around a panel: left and right together, above and below together.
-const GAP: [f64; 2] = [110.0, 62.0];
+const GAP: [f64; 2] = [62.0, 52.0];
 const LEFT: f64 = 58.0;
 const TOP: f64 = 96.0;
 
-/// The errors that the chart spans, as log₂ ulp: from a quarter of an ulp to nothing left.
-const ERRORS: [f64; 2] = [-2.0, 32.0];
+/// The errors that the chart spans, as log₂ ulp: from a quarter of an ulp to nothing left, and room
+/// for the methods that have no right answer.
+const ERRORS: [f64; 2] = [-2.0, 36.0];
+
+/// Where those stand.
+const NONE_RIGHT: f64 = 35.0;
 
 /// The chart of a report as an SVG document.
 pub fn work_precision(report: &Report, machine: &Machine) -> String {
@@ -41,7 +45,7 @@ pub fn work_precision(report: &Report, machine: &Machine) -> String {
 }
 
 fn header(svg: &mut Svg, report: &Report, machine: &Machine) {
-    let title = "Error against run time: the lower left is best";
+    let title = "Error (99th percentile, in ulp) against the time of one solve (ns): the lower left is best";
     svg.text([16.0, 24.0], title, 16.0, "#000000", Anchor::Start);
     let Machine {
         cpu,
@@ -54,7 +58,10 @@ fn header(svg: &mut Svg, report: &Report, machine: &Machine) {
     } else {
         "; TIMES NOT TRUSTED"
     };
-    let made = format!("{cpu}; {compiler}, {flags}; seed {}{trusted}", report.seed);
+    let made = format!(
+        "{cpu}; {compiler}, {flags}; seed {}{trusted}. Labels: rate of wrong answers. Grey: Pareto line.",
+        report.seed
+    );
     svg.text([16.0, 42.0], &made, 11.0, INK, Anchor::Start);
     let first = report.chapters.first();
     let methods: Vec<&str> =
@@ -83,25 +90,15 @@ fn log_time(row: &Row) -> f64 {
 
 fn draw(svg: &mut Svg, panel: &Panel, chapter: &Chapter) {
     panel.rules(svg, &time_ticks(panel.y));
-    let ticks = [-1, 4, 9, 14, 19, 24, 29].map(|k| (f64::from(k), power_label(k)));
+    let mut ticks: Vec<(f64, String)> = [-1, 4, 9, 14, 19, 24, 29]
+        .map(|k| (f64::from(k), power_label(k)))
+        .into();
+    ticks.push((NONE_RIGHT, "none right".into()));
     panel.columns(svg, &ticks);
     let rays = chapter.census.rays;
     panel.title(svg, &format!("{}, {rays} rays", chapter.name));
     let [x, y] = panel.at;
-    let below = [x + PANEL[0] / 2.0, y + PANEL[1] + 27.0];
-    svg.text(
-        below,
-        "error in ulp, 99th percentile",
-        10.0,
-        INK,
-        Anchor::Middle,
-    );
-    svg.text_upwards(
-        [x - 42.0, y + PANEL[1] / 2.0],
-        "ns for one solve",
-        10.0,
-        INK,
-    );
+    svg.text_upwards([x - 42.0, y + PANEL[1] / 2.0], "ns", 10.0, INK);
     pareto_line(svg, panel, chapter);
     for row in &chapter.rows {
         let (color, marker) = look(row.method);
@@ -121,18 +118,14 @@ fn time_ticks([least, most]: [f64; 2]) -> Vec<(f64, String)> {
         .collect()
 }
 
-/// Where a method stands; where no answer was right enough to have an error, past the right edge.
 fn point(panel: &Panel, row: &Row) -> [f64; 2] {
-    let [x, y] = panel.place(error(row), log_time(row));
-    if row.errors.judged == 0 {
-        return [x + 9.0, y];
-    }
-    [x, y]
+    panel.place(error(row), log_time(row))
 }
 
+/// log₂ of the error.
 fn error(row: &Row) -> f64 {
     if row.errors.judged == 0 {
-        return ERRORS[1];
+        return NONE_RIGHT;
     }
     row.errors.ulp.p99.max(1e-3).log2()
 }
@@ -151,29 +144,38 @@ fn pareto_line(svg: &mut Svg, panel: &Panel, chapter: &Chapter) {
     }
 }
 
-/// The rate of wrong answers beside each point, pushed apart where points are close.
+/// The rate of wrong answers beside each point, higher where another label is in the way.
 fn labels(svg: &mut Svg, panel: &Panel, chapter: &Chapter) {
-    const SPACING: f64 = 11.5;
     let rays = chapter.census.rays;
     let mut rows: Vec<&Row> = chapter.rows.iter().collect();
     rows.sort_by(|a, b| log_time(a).total_cmp(&log_time(b)));
-    // From the lowest point upwards, none lower than the one before it.
-    let mut free = panel.at[1] + PANEL[1] + 4.0;
+    let mut placed: Vec<[f64; 2]> = Vec::new();
     for row in rows {
         let [x, y] = point(panel, row);
-        let at = y.min(free);
-        free = at - SPACING;
-        let (color, _) = look(row.method);
-        let side = x > panel.at[0] + 0.72 * PANEL[0] && row.errors.judged > 0;
-        let (dx, anchor) = if side {
-            (-9.0, Anchor::End)
+        let right_half = x > panel.at[0] + 0.72 * PANEL[0];
+        let (left, anchor) = if right_half {
+            (x - 9.0 - LABEL[0], Anchor::End)
         } else {
-            (9.0, Anchor::Start)
+            (x + 9.0, Anchor::Start)
         };
+        let mut at = [left, y];
+        while placed.iter().any(|other| overlap(*other, at)) {
+            at[1] -= 1.0;
+        }
+        placed.push(at);
         let wrong = match row.errors.wrong.total() {
             0 => "0 wrong".to_owned(),
             wrong => format!("{} wrong", percent(wrong, rays)),
         };
-        svg.text([x + dx, at + 3.5], &wrong, 10.0, color, anchor);
+        let (color, _) = look(row.method);
+        let edge = if right_half { left + LABEL[0] } else { left };
+        svg.text([edge, at[1] + 3.5], &wrong, 10.0, color, anchor);
     }
+}
+
+/// Width and height of a label.
+const LABEL: [f64; 2] = [68.0, 11.0];
+
+fn overlap(one: [f64; 2], other: [f64; 2]) -> bool {
+    (one[0] - other[0]).abs() < LABEL[0] && (one[1] - other[1]).abs() < LABEL[1]
 }
