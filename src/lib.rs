@@ -7,6 +7,7 @@
 //! * [`method`]: the quadratic, and the ways to evaluate it
 //! * [`scene`]: spheres, camera, light; scene files; the built-in scenes
 //! * [`render`]: rays → nearest hits → shade → glyphs: an image of cells
+//! * [`lab`]: families of rays to hold the methods against
 //! * [`explain`]: what one pixel found, in numbers and words
 //! * [`explorer`]: state, actions, update, and the screen as cells
 //! * [`terminal`]: enter, leave, restore; the loop between events and the screen
@@ -16,6 +17,7 @@ pub mod cli;
 pub mod explain;
 pub mod explorer;
 pub mod geometry;
+pub mod lab;
 pub mod method;
 pub mod render;
 pub mod scene;

@@ -6,6 +6,7 @@
 mod citardauq;
 mod double;
 mod dyadic;
+pub mod exact;
 mod haines;
 mod kahan;
 mod number;
@@ -26,7 +27,6 @@ use crate::geometry::{Ray, Sphere};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Method {
     /// B² − 4AC and (−B ± √Δ)/2A in binary32, operation for operation as in the tutorial.
-    #[default]
     Textbook,
     /// b² − AC with b = B/2, and the q-form's roots q/A and C/q, in binary32.
     Citardauq,
@@ -36,16 +36,20 @@ pub enum Method {
     Kahan,
     /// A r² − ‖o × d‖², Lagrange's identity, and the q-form's roots, in binary64 inside.
     Double,
+    /// The exact class, and both roots rounded once, by as many stages as the ray needs.
+    #[default]
+    Exact,
 }
 
 impl Method {
     /// All methods, in the order in which lists show them.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Textbook,
         Self::Citardauq,
         Self::Haines,
         Self::Kahan,
         Self::Double,
+        Self::Exact,
     ];
 
     /// The name on the command line, in files and on the screen.
@@ -56,6 +60,7 @@ impl Method {
             Self::Haines => "haines",
             Self::Kahan => "kahan",
             Self::Double => "double",
+            Self::Exact => "exact",
         }
     }
 
@@ -72,6 +77,7 @@ impl Method {
             Self::Haines => haines::solve(ray, sphere),
             Self::Kahan => kahan::solve(ray, sphere),
             Self::Double => double::solve(ray, sphere),
+            Self::Exact => exact::solve(ray, sphere),
         }
     }
 
@@ -83,6 +89,7 @@ impl Method {
             Self::Haines => haines::coefficients(ray, sphere),
             Self::Kahan => kahan::coefficients(ray, sphere),
             Self::Double => double::coefficients(ray, sphere),
+            Self::Exact => exact::coefficients(ray, sphere),
         }
     }
 }
