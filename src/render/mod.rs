@@ -7,13 +7,14 @@ mod bounds;
 mod color;
 mod frame;
 mod image;
+mod ink;
 mod ramp;
 mod shade;
 mod style;
 mod view;
 
 pub use color::{AnsiColor, ColorDepth, color_of};
-pub use frame::{Contact, Frame, Hit};
+pub use frame::{Contact, Frame, Hit, Lost};
 pub use image::{Cell, Image, Look};
 pub use style::{CELL_ASPECT, Style, fit};
 pub use view::View;

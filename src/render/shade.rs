@@ -3,46 +3,103 @@
 use glam::DVec3;
 
 use crate::geometry::{Ray, Sphere};
+use crate::method::{Coefficients, Method, Place};
 use crate::scene::Light;
 
 /// What is seen of a surface that no light reaches.
 const AMBIENT: f64 = 0.12;
 
-/// The brightness, from 0 to 1, of the point p0 + t·d of `sphere`: a little everywhere, the rest by
-/// Lambert's cosine, from the light or, without one, from the eye.
-///
-/// It is worked out from the root as the method gave it. A root that is far off the sphere shows
-/// as a wrong brightness, not as a hole.
-pub(super) fn brightness(ray: &Ray, sphere: &Sphere, t: f32, light: Option<Light>) -> f32 {
-    let cosine = match light {
-        None => headlight(ray, sphere, t),
-        Some(light) => lambert(ray, sphere, t, light),
-    };
-    // A point sphere has no normal and a root past the range no place: both are lit in full.
-    let cosine = if cosine.is_nan() { 1.0 } else { cosine };
-    (AMBIENT + (1.0 - AMBIENT) * cosine.clamp(0.0, 1.0)) as f32
+/// A point of a sphere that is seen.
+pub(super) struct Hit<'a> {
+    /// Who found it.
+    pub method: Method,
+    /// The ray that hits.
+    pub ray: &'a Ray,
+    /// The sphere that is hit.
+    pub sphere: &'a Sphere,
+    /// The visible root as the method gave it; `exact` is not asked for it.
+    pub t: f32,
+    /// Whether the visible root is the near or the far one.
+    pub place: Place,
 }
 
-/// cos θ = √(Δ/(4Ar²)): since t solves the quadratic, √Δ = |2At + B|, so cos θ = |At + b|/(√A·r).
-fn headlight(ray: &Ray, sphere: &Sphere, t: f32) -> f64 {
-    let d = ray.direction.as_dvec3();
-    let o = ray.origin.as_dvec3() - sphere.center.as_dvec3();
-    let a = d.dot(d);
-    (a * f64::from(t) + o.dot(d)).abs() / (a.sqrt() * f64::from(sphere.radius))
-}
+impl Hit<'_> {
+    /// The brightness, from 0 to 1: a little everywhere, the rest by Lambert's cosine, from the
+    /// light or, without one, from the eye.
+    ///
+    /// A method that is far off shows as a wrong brightness, not as a hole.
+    pub(super) fn brightness(&self, light: Option<Light>) -> f32 {
+        let cosine = match light {
+            None => self.headlight(),
+            Some(light) => self.lambert(light),
+        };
+        // A point sphere has no normal and a root past the range no place: both are lit in full.
+        let cosine = if cosine.is_nan() { 1.0 } else { cosine };
+        (AMBIENT + (1.0 - AMBIENT) * cosine.clamp(0.0, 1.0)) as f32
+    }
 
-/// The cosine of the angle between the light and the normal on the side that is seen; below 0
-/// where the surface turns away.
-fn lambert(ray: &Ray, sphere: &Sphere, t: f32, light: Light) -> f64 {
-    let d = ray.direction.as_dvec3();
-    let p = ray.origin.as_dvec3() + f64::from(t) * d;
-    let outward = p - sphere.center.as_dvec3();
-    let normal = if outward.dot(d) > 0.0 {
-        -outward
-    } else {
-        outward
-    };
-    cosine(light.position.as_dvec3() - p, normal)
+    /// cos θ = √(Δ/(4Ar²)). A discriminant below 0 is one that only rounding put there.
+    fn headlight(&self) -> f64 {
+        let method = match self.method {
+            // To the bits that a shade shows, binary64 has the exact Δ.
+            Method::Exact => Method::Double,
+            method => method,
+        };
+        let q = method.coefficients(self.ray, self.sphere);
+        let r = f64::from(self.sphere.radius);
+        (q.discriminant.max(0.0) / (4.0 * q.a * (r * r))).sqrt()
+    }
+
+    /// The cosine of the angle between the light and the normal on the side that is seen; below 0
+    /// where the surface turns away.
+    fn lambert(&self, light: Light) -> f64 {
+        let p = self.point();
+        cosine(light.position.as_dvec3() - p, self.normal_at(p))
+    }
+
+    /// A normal on the side that is seen, of any length.
+    pub(super) fn normal(&self) -> DVec3 {
+        self.normal_at(self.point())
+    }
+
+    fn normal_at(&self, p: DVec3) -> DVec3 {
+        let outward = p - self.sphere.center.as_dvec3();
+        if outward.dot(self.ray.direction.as_dvec3()) > 0.0 {
+            -outward
+        } else {
+            outward
+        }
+    }
+
+    /// p = p0 + t·d.
+    fn point(&self) -> DVec3 {
+        let t = match self.method {
+            Method::Exact => self.root(),
+            _ => self.t.into(),
+        };
+        self.ray.origin.as_dvec3() + t * self.ray.direction.as_dvec3()
+    }
+
+    /// The visible root in binary64: nothing shows the bits by which it differs from the exact one.
+    fn root(&self) -> f64 {
+        let Coefficients {
+            a,
+            b,
+            c,
+            discriminant,
+            ..
+        } = Method::Double.coefficients(self.ray, self.sphere);
+        let half_b = b / 2.0;
+        let s = discriminant.max(0.0).sqrt() / 2.0;
+        let q = half_b.abs() + s;
+        match (self.place, half_b < 0.0) {
+            _ if q == 0.0 => 0.0,
+            (Place::Inside, true) => q / a,
+            (Place::Inside, false) => -c / q,
+            (_, true) => c / q,
+            (_, false) => -q / a,
+        }
+    }
 }
 
 fn cosine(u: DVec3, v: DVec3) -> f64 {
@@ -68,32 +125,66 @@ mod tests {
         radius: 1.0,
     };
 
+    fn hit<'a>(method: Method, ray: &'a Ray, sphere: &'a Sphere) -> Hit<'a> {
+        let solution = method.solve(ray, sphere);
+        Hit {
+            method,
+            ray,
+            sphere,
+            t: solution.visible().expect("a hit"),
+            place: solution.place().expect("a hit"),
+        }
+    }
+
     #[test]
-    fn a_headlight_is_the_root_of_the_normalised_discriminant() {
-        for x in [0.0, 0.25, 0.5, 0.9, 1.0] {
-            let ray = ray(x);
-            let q = Method::Textbook.coefficients(&ray, &UNIT);
-            let t = Method::Textbook.solve(&ray, &UNIT).near;
-            let expected = (q.discriminant / (4.0 * q.a)).sqrt();
-            assert!((headlight(&ray, &UNIT, t) - expected).abs() < 1e-6);
+    fn a_headlight_is_the_cosine_between_ray_and_normal() {
+        for method in Method::ALL {
+            for x in [0.0, 0.25, 0.5, 0.9, 1.0] {
+                let ray = ray(x);
+                let cosine = f64::from(1.0 - x * x).sqrt();
+                let off = hit(method, &ray, &UNIT).headlight() - cosine;
+                assert!(off.abs() < 1e-5, "{method} {x} {off}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_point_that_is_seen_lies_on_the_sphere() {
+        let rays = [
+            ray(0.6),
+            Ray {
+                origin: Vec3::new(0.2, 0.1, -0.3),
+                direction: Vec3::new(1.0, 2.0, 3.0),
+            },
+            Ray {
+                origin: Vec3::new(-0.2, 0.1, -0.3),
+                direction: Vec3::new(1.0, 2.0, 3.0),
+            },
+            Ray {
+                origin: Vec3::new(0.3, 0.1, 0.2),
+                direction: Vec3::new(1.0, 2.0, 3.0),
+            },
+        ];
+        for ray in &rays {
+            for method in [Method::Exact, Method::Double] {
+                let hit = hit(method, ray, &UNIT);
+                assert!((hit.point().length() - 1.0).abs() < 1e-6);
+                assert!(hit.normal().dot(ray.direction.as_dvec3()) <= 0.0);
+            }
         }
     }
 
     #[test]
     fn a_light_at_the_eye_and_an_orthographic_ray_agree_with_the_headlight_at_the_centre() {
-        let light = Light {
-            position: Vec3::new(0.0, 0.0, 10.0),
+        let light = |z| {
+            let position = Vec3::new(0.0, 0.0, z);
+            Some(Light { position })
         };
-        let t = 4.5;
-        assert_eq!(brightness(&ray(0.0), &UNIT, t, Some(light)), 1.0);
-        assert_eq!(brightness(&ray(0.0), &UNIT, t, None), 1.0);
-        let behind = Light {
-            position: Vec3::new(0.0, 0.0, -10.0),
-        };
-        assert_eq!(
-            brightness(&ray(0.0), &UNIT, t, Some(behind)),
-            AMBIENT as f32
-        );
+        let ray = ray(0.0);
+        let hit = hit(Method::Exact, &ray, &UNIT);
+        assert_eq!(hit.brightness(light(10.0)), 1.0);
+        assert_eq!(hit.brightness(None), 1.0);
+        assert_eq!(hit.brightness(light(-10.0)), AMBIENT as f32);
     }
 
     #[test]
@@ -105,8 +196,9 @@ mod tests {
         let light = Light {
             position: Vec3::ZERO,
         };
-        assert_eq!(brightness(&from_centre, &UNIT, 1.0, Some(light)), 1.0);
-        assert_eq!(brightness(&from_centre, &UNIT, 1.0, None), 1.0);
+        let hit = hit(Method::Exact, &from_centre, &UNIT);
+        assert_eq!(hit.brightness(Some(light)), 1.0);
+        assert_eq!(hit.brightness(None), 1.0);
     }
 
     #[test]
@@ -115,16 +207,23 @@ mod tests {
             radius: 0.0,
             ..UNIT
         };
-        for light in [
-            None,
-            Some(Light {
-                position: Vec3::ZERO,
-            }),
-        ] {
+        let light = Light {
+            position: Vec3::ZERO,
+        };
+        for light in [None, Some(light)] {
             for sphere in [UNIT, point] {
-                for t in [f32::MIN_POSITIVE, 5.0, f32::MAX, f32::INFINITY] {
-                    let b = brightness(&ray(0.0), &sphere, t, light);
-                    assert!((0.0..=1.0).contains(&b), "{b}");
+                for method in Method::ALL {
+                    for t in [f32::MIN_POSITIVE, 5.0, f32::MAX, f32::INFINITY] {
+                        let hit = Hit {
+                            method,
+                            ray: &ray(0.0),
+                            sphere: &sphere,
+                            t,
+                            place: Place::Hit,
+                        };
+                        let b = hit.brightness(light);
+                        assert!((0.0..=1.0).contains(&b), "{b}");
+                    }
                 }
             }
         }
