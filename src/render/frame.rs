@@ -1,63 +1,19 @@
-//! The frame: for each pixel, which sphere is seen, at which root, and how bright.
+//! The frame: for each pixel, which sphere is seen, at which root, and what the view shows of it.
 
 use glam::Vec3;
 
 use super::View;
 use super::bounds::{Eye, Window};
+use super::cover::{BLOCK, Block, Projector};
+use super::field::Field;
+use super::finish::{self, Lighting};
+use super::layer::{Contact, Layer, refill};
+use super::nearest::{NOBODY, Nearest, Question, is_before};
 use super::shade;
 use crate::geometry::{Ray, Sphere};
 use crate::method::exact::{self, Stage};
-use crate::method::{Class, Method, Place, Solution};
+use crate::method::{Class, Method, Place};
 use crate::scene::{Rays, Scene, Size};
-
-/// What the line of a pixel does, of all spheres together: that of the nearest visible hit, else
-/// the greatest in this order.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
-pub enum Contact {
-    /// It misses every sphere.
-    #[default]
-    Miss,
-    /// It touches a sphere behind the eye.
-    TangentBehind,
-    /// It crosses a sphere behind the eye.
-    SecantBehind,
-    /// It meets nothing, as far as the method can tell, but for one sphere at least the method's
-    /// discriminant is not a number.
-    Nan,
-    /// It touches the nearest visible sphere.
-    Tangent,
-    /// It crosses the nearest visible sphere, which lies before the eye.
-    Secant,
-    /// The eye is inside the nearest visible sphere.
-    Inside,
-}
-
-impl Contact {
-    fn of(answer: &Solution) -> Self {
-        match (answer.class, answer.place()) {
-            (Class::Nan, _) => Self::Nan,
-            (Class::Miss, _) | (_, None) => Self::Miss,
-            (Class::Tangent, Some(Place::Behind)) => Self::TangentBehind,
-            (Class::Secant, Some(Place::Behind)) => Self::SecantBehind,
-            (_, Some(Place::Inside)) => Self::Inside,
-            (Class::Tangent, Some(Place::Hit)) => Self::Tangent,
-            (Class::Secant, Some(Place::Hit)) => Self::Secant,
-        }
-    }
-
-    /// The root of the sphere that is seen so.
-    const fn visible_root(self) -> Place {
-        match self {
-            Self::Inside => Place::Inside,
-            _ => Place::Hit,
-        }
-    }
-
-    /// Whether the line meets a sphere, be it behind the eye: the tutorial's boolean.
-    pub const fn meets(self) -> bool {
-        !matches!(self, Self::Miss | Self::Nan)
-    }
-}
 
 /// What is seen at a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,66 +36,22 @@ pub enum Lost {
 /// The least Δ/(4Ar²) of a miss that [`View::Delta`] shows: the line passes the centre at 2r.
 pub(super) const FARTHEST_MISS: f32 = -3.0;
 
-/// The spheres seen at the pixels, and at which roots.
-#[derive(Debug, Clone, Default, PartialEq)]
-struct Layer {
-    t: Vec<f32>,
-    body: Vec<u32>,
-    contact: Vec<Contact>,
-}
-
-impl Layer {
-    fn clear(&mut self, pixels: usize) {
-        refill(&mut self.t, pixels, f32::INFINITY);
-        refill(&mut self.body, pixels, NOBODY);
-        refill(&mut self.contact, pixels, Contact::Miss);
-    }
-
-    /// Takes note of one answer; whether it is of the sphere that is seen so far.
-    fn note(&mut self, i: usize, number: u32, answer: &Solution) -> bool {
-        let contact = Contact::of(answer);
-        match answer.visible() {
-            Some(t) if (t, number) < (self.t[i], self.body[i]) => {
-                self.t[i] = t;
-                self.body[i] = number;
-                self.contact[i] = contact;
-                true
-            }
-            None if self.body[i] == NOBODY => {
-                self.contact[i] = self.contact[i].max(contact);
-                false
-            }
-            _ => false,
-        }
-    }
-
-    fn forget_what_is_behind(&mut self) {
-        for contact in &mut self.contact {
-            if matches!(contact, Contact::TangentBehind | Contact::SecantBehind) {
-                *contact = Contact::Miss;
-            }
-        }
-    }
-}
-
-/// No sphere: greater than the number of any, so that at equal t a sphere wins over it.
-const NOBODY: u32 = u32::MAX;
-
 /// The answers for the pixels of one picture, in arrays that are kept from frame to frame.
 ///
 /// A picture is the same in whatever order its spheres are asked: the least t wins, and of two
 /// spheres at equal t the one listed first.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Frame {
-    size: Size,
     view: View,
     method: Method,
-    /// What `rays` was filled from: a frame in which only spheres move keeps it.
-    camera: Option<Rays>,
-    rays: Vec<Ray>,
+    field: Field,
     seen: Layer,
+    /// Whether the roots of `seen` are the method's own, and not only about where they are.
+    has_roots: bool,
     /// What `exact` sees, in the view that compares the two.
     truth: Layer,
+    nearest: Nearest,
+    block: Block,
     /// What the view shows of each pixel, if that is a number: its brightness, Δ/(4Ar²), the bits
     /// lost, the place of its stage among all.
     value: Vec<f32>,
@@ -150,13 +62,14 @@ pub struct Frame {
 impl Default for Frame {
     fn default() -> Self {
         Self {
-            size: Size::new(0, 0),
             view: View::default(),
             method: Method::default(),
-            camera: None,
-            rays: Vec::new(),
+            field: Field::default(),
             seen: Layer::default(),
+            has_roots: true,
             truth: Layer::default(),
+            nearest: Nearest::default(),
+            block: Block::default(),
             value: Vec::new(),
             range: None,
         }
@@ -171,43 +84,112 @@ impl Frame {
 
     /// Asks `method` what the rays hit, and works out what the view shows of it.
     pub fn render(&mut self, scene: &Scene, rays: &Rays, method: Method, view: View) {
-        let eye = Eye::new(rays);
-        let reach = if view == View::Delta { 2.0 } else { 1.0 };
-        self.render_within(scene, rays, method, view, |sphere| {
-            eye.window(sphere, reach)
-        });
+        self.reset(rays, method, view);
+        if self.method == Method::Exact && view.shows_only_what_is_seen() {
+            self.ask_nearest(scene, rays);
+            self.finish(scene);
+        } else {
+            let eye = Eye::new(rays);
+            let reach = if view == View::Delta { 2.0 } else { 1.0 };
+            self.ask_windows(scene, |sphere| eye.window(sphere, reach));
+        }
     }
 
     /// As [`Frame::render`], but asks about every sphere at every pixel: what `render` must equal,
     /// bit for bit.
     pub fn render_all(&mut self, scene: &Scene, rays: &Rays, method: Method, view: View) {
-        self.render_within(scene, rays, method, view, |_| Window::whole(rays.size));
+        self.reset(rays, method, view);
+        self.ask_windows(scene, |_| Window::whole(rays.size));
     }
 
-    fn render_within(
-        &mut self,
-        scene: &Scene,
-        rays: &Rays,
-        method: Method,
-        view: View,
-        window: impl Fn(&Sphere) -> Window,
-    ) {
+    fn reset(&mut self, rays: &Rays, method: Method, view: View) {
+        self.view = view;
         self.method = if view == View::Stage {
             Method::Exact
         } else {
             method
         };
-        self.reset(rays, view);
-        for (number, body) in (0..NOBODY).zip(&scene.bodies) {
-            let sphere = &body.sphere;
-            for i in pixels_of(window(sphere), self.size) {
-                self.ask(i, number, sphere);
+        self.range = None;
+        self.has_roots = true;
+        self.field.aim(rays);
+    }
+
+    /// Asks for the nearest hits by the certified way.
+    fn ask_nearest(&mut self, scene: &Scene, rays: &Rays) {
+        self.nearest.clear(&self.field);
+        let projector = Projector::new(rays);
+        let question = Question {
+            field: &self.field,
+            bodies: &scene.bodies,
+        };
+        for (first, bodies) in (0..).step_by(BLOCK).zip(scene.bodies.chunks(BLOCK)) {
+            projector.bound(bodies, &mut self.block);
+            for i in 0..bodies.len() {
+                if self.block.is_behind(i) {
+                    continue;
+                }
+                let (bounds, least) = (self.block.bounds(i), self.block.least(i));
+                if bounds.is_empty() || self.nearest.hides(bounds, least) {
+                    continue;
+                }
+                self.nearest.ask(&question, first + i as u32, bounds, least);
             }
         }
-        if view != View::Class {
+    }
+
+    /// Works out, once for each pixel, what the view asks of what is seen there.
+    fn finish(&mut self, scene: &Scene) {
+        let places = self.field.places();
+        self.seen.resize(places);
+        self.value.resize(places, 0.0);
+        let question = Question {
+            field: &self.field,
+            bodies: &scene.bodies,
+        };
+        self.has_roots = self.view.shows_roots();
+        finish::identify(&question, &self.nearest, &mut self.seen, self.has_roots);
+        match self.view {
+            View::Shade => {
+                let lighting = Lighting::new(scene.light);
+                finish::shade(
+                    &question,
+                    &self.nearest,
+                    &self.seen,
+                    &lighting,
+                    &mut self.value,
+                );
+            }
+            View::Depth => self.range = range_of(&self.seen.t),
+            // The exact root loses nothing.
+            View::Lost => self.value.fill(0.0),
+            _ => {}
+        }
+    }
+
+    /// Asks about each sphere at the pixels of its window.
+    fn ask_windows(&mut self, scene: &Scene, window: impl Fn(&Sphere) -> Window) {
+        let places = self.field.places();
+        self.seen.clear(places);
+        let compares = self.view == View::Lost;
+        self.truth.clear(if compares { places } else { 0 });
+        let none = match self.view {
+            View::Delta => f32::NEG_INFINITY,
+            _ => 0.0,
+        };
+        refill(&mut self.value, places, none);
+        for (number, body) in (0..NOBODY).zip(&scene.bodies) {
+            let sphere = &body.sphere;
+            let Window { columns, rows } = window(sphere);
+            for y in rows {
+                for x in columns.clone() {
+                    self.ask(self.field.place(x, y), number, sphere);
+                }
+            }
+        }
+        if self.view != View::Class {
             self.seen.forget_what_is_behind();
         }
-        match view {
+        match self.view {
             View::Shade => self.shade(scene),
             View::Depth => self.range = range_of(&self.seen.t),
             View::Lost => self.compare(),
@@ -216,31 +198,9 @@ impl Frame {
         }
     }
 
-    fn reset(&mut self, rays: &Rays, view: View) {
-        self.size = rays.size;
-        self.view = view;
-        self.range = None;
-        if self.camera != Some(*rays) {
-            self.camera = Some(*rays);
-            self.rays.clear();
-            let pixels =
-                (0..rays.size.height).flat_map(|y| (0..rays.size.width).map(move |x| (x, y)));
-            self.rays.extend(pixels.map(|(x, y)| rays.ray(x, y)));
-        }
-        let pixels = rays.size.area();
-        self.seen.clear(pixels);
-        self.truth
-            .clear(if view == View::Lost { pixels } else { 0 });
-        let none = match view {
-            View::Delta => f32::NEG_INFINITY,
-            _ => 0.0,
-        };
-        refill(&mut self.value, pixels, none);
-    }
-
-    /// Asks about one sphere at pixel `i`.
+    /// Asks about one sphere at one pixel.
     fn ask(&mut self, i: usize, number: u32, sphere: &Sphere) {
-        let ray = &self.rays[i];
+        let ray = &self.field.ray(i);
         match self.view {
             View::Delta => {
                 let answer = self.method.solve(ray, sphere);
@@ -272,13 +232,12 @@ impl Frame {
     fn shade(&mut self, scene: &Scene) {
         for (i, &number) in self.seen.body.iter().enumerate() {
             if let Some(body) = scene.bodies.get(number as usize) {
-                let place = self.seen.contact[i].visible_root();
                 let hit = shade::Hit {
                     method: self.method,
-                    ray: &self.rays[i],
+                    ray: &self.field.ray(i),
                     sphere: &body.sphere,
                     t: self.seen.t[i],
-                    place,
+                    place: self.seen.contact[i].visible_root(),
                 };
                 self.value[i] = hit.brightness(scene.light);
             }
@@ -303,7 +262,7 @@ impl Frame {
             let Some(body) = scene.bodies.get(number as usize) else {
                 continue;
             };
-            let (_, stages) = exact::solve_staged(&self.rays[i], &body.sphere);
+            let (_, stages) = exact::solve_staged(&self.field.ray(i), &body.sphere);
             let root = match self.seen.contact[i].visible_root() {
                 Place::Inside => stages.far,
                 _ => stages.near,
@@ -314,8 +273,8 @@ impl Frame {
     }
 
     /// The size of the picture.
-    pub const fn size(&self) -> Size {
-        self.size
+    pub fn size(&self) -> Size {
+        self.field.size()
     }
 
     /// The view for which the frame was rendered.
@@ -324,8 +283,8 @@ impl Frame {
     }
 
     fn index(&self, x: u32, y: u32) -> Option<usize> {
-        let inside = x < self.size.width && y < self.size.height;
-        inside.then(|| y as usize * self.size.width as usize + x as usize)
+        let Size { width, height } = self.size();
+        (x < width && y < height).then(|| self.field.place(x, y))
     }
 
     /// The place in the scene's list of the sphere that is seen at pixel (x, y), if one is.
@@ -335,9 +294,19 @@ impl Frame {
     }
 
     /// The nearest visible hit at pixel (x, y), if there is one; nothing outside the picture.
-    pub fn hit(&self, x: u32, y: u32) -> Option<Hit> {
+    ///
+    /// Where the view shows no roots the method is asked for this one, in the `scene` that the frame
+    /// was rendered from.
+    pub fn hit(&self, scene: &Scene, x: u32, y: u32) -> Option<Hit> {
         let body = self.seen(x, y)?;
-        let t = self.seen.t[self.index(x, y)?];
+        let place = self.index(x, y)?;
+        let t = if self.has_roots {
+            self.seen.t[place]
+        } else {
+            let sphere = &scene.bodies.get(body as usize)?.sphere;
+            let ray = self.field.ray(place);
+            self.method.solve(&ray, sphere).visible()?
+        };
         Some(Hit { body, t })
     }
 
@@ -388,11 +357,11 @@ impl Frame {
     /// The unit normal at pixel (x, y) on the side that is seen, along the axes of the screen:
     /// right, up, towards the eye. Nothing where no sphere is seen, and for a point sphere.
     pub fn normal(&self, scene: &Scene, x: u32, y: u32) -> Option<Vec3> {
-        let camera = self.camera.as_ref()?;
+        let camera = self.field.camera()?;
         let i = self.index(x, y)?;
         let hit = shade::Hit {
             method: self.method,
-            ray: &self.rays[i],
+            ray: &self.field.ray(i),
             sphere: &scene.bodies.get(self.seen(x, y)? as usize)?.sphere,
             t: self.seen.t[i],
             place: self.seen.contact[i].visible_root(),
@@ -425,31 +394,37 @@ impl Frame {
 
     /// Whether pixel (x, y) is an edge of what is seen there: whether a neighbour shows something
     /// else that is farther away. So an edge is one pixel wide and belongs to the nearer sphere.
-    pub fn outline(&self, x: u32, y: u32) -> bool {
-        let Some(here) = self.hit(x, y) else {
+    pub fn outline(&self, scene: &Scene, x: u32, y: u32) -> bool {
+        self.seen(x, y).is_some()
+            && [
+                (x.wrapping_sub(1), y),
+                (x + 1, y),
+                (x, y.wrapping_sub(1)),
+                (x, y + 1),
+            ]
+            .into_iter()
+            .any(|there| self.is_beyond(scene, there, (x, y)))
+    }
+
+    /// Whether one pixel shows something else than another, and farther away.
+    fn is_beyond(&self, scene: &Scene, there: (u32, u32), here: (u32, u32)) -> bool {
+        let [Some(i), Some(j)] = [there, here].map(|(x, y)| self.index(x, y)) else {
             return false;
         };
-        let beyond = |x: u32, y: u32| {
-            self.index(x, y).is_some() && self.hit(x, y).is_none_or(|there| is_beyond(there, here))
-        };
-        beyond(x.wrapping_sub(1), y)
-            || beyond(x + 1, y)
-            || beyond(x, y.wrapping_sub(1))
-            || beyond(x, y + 1)
+        let [there_is, here_is] = [i, j].map(|place| (self.seen.t[place], self.seen.body[place]));
+        if there_is.1 == here_is.1 {
+            return false;
+        }
+        if there_is.1 == NOBODY || is_before(here_is.0, there_is.0) {
+            return true;
+        }
+        if is_before(there_is.0, here_is.0) {
+            return false;
+        }
+        // About as far away as each other: only the method can tell.
+        let order = |(x, y): (u32, u32)| self.hit(scene, x, y).map(|hit| (hit.t, hit.body));
+        order(there) > order(here)
     }
-}
-
-fn is_beyond(there: Hit, here: Hit) -> bool {
-    there.body != here.body && (there.t, there.body) > (here.t, here.body)
-}
-
-/// The places of the pixels of `window` in a picture of this size.
-fn pixels_of(window: Window, size: Size) -> impl Iterator<Item = usize> {
-    let Window { columns, rows } = window;
-    rows.flat_map(move |y| {
-        let row = y as usize * size.width as usize;
-        columns.clone().map(move |x| row + x as usize)
-    })
 }
 
 /// The least and the greatest number that is finite.
@@ -492,9 +467,4 @@ fn normalised_discriminant(method: Method, ray: &Ray, sphere: &Sphere, class: Cl
         Class::Tangent | Class::Secant => 0.0,
         Class::Miss | Class::Nan => f32::NEG_INFINITY,
     }
-}
-
-fn refill<T: Copy>(buffer: &mut Vec<T>, length: usize, value: T) {
-    buffer.clear();
-    buffer.resize(length, value);
 }

@@ -133,7 +133,7 @@ impl Painter<'_> {
     fn has_dot(&self, x: u32, y: u32, ink: &Ink) -> bool {
         let rank = BAYER[y as usize % 4][x as usize % 4];
         let threshold = (f32::from(rank) + 0.5) / 16.0;
-        ink.level > threshold || self.frame.outline(x, y)
+        ink.level > threshold || self.frame.outline(self.scene, x, y)
     }
 
     fn ascii(&mut self, x: u32, y: u32) -> Cell {
@@ -342,7 +342,7 @@ mod tests {
                     ' ' => false,
                     other => panic!("{other}"),
                 };
-                assert_eq!(shows, frame.hit(x, y).is_some(), "{depth:?} ({x}, {y})");
+                assert_eq!(shows, frame.seen(x, y).is_some(), "{depth:?} ({x}, {y})");
                 assert_eq!(
                     cell.fg.is_some(),
                     depth != ColorDepth::None && cell.glyph != ' '
@@ -371,6 +371,7 @@ mod tests {
 
     #[test]
     fn braille_has_a_dot_for_each_hit_and_without_colour_for_each_edge() {
+        let scene = scene();
         let dot = |image: &Image, x: u32, y: u32| {
             let glyph = cell_at(image, Style::Braille, x, y).glyph;
             let (_, _, bit) = DOTS[DOTS
@@ -381,30 +382,31 @@ mod tests {
         };
         let (frame, image) = drawn(View::Shade, Style::Braille, ColorDepth::Ansi256);
         for (x, y) in pixels(&frame) {
-            assert_eq!(dot(&image, x, y), frame.hit(x, y).is_some());
+            assert_eq!(dot(&image, x, y), frame.seen(x, y).is_some());
         }
         let (frame, image) = drawn(View::Shade, Style::Braille, ColorDepth::None);
         for (x, y) in pixels(&frame) {
-            assert!(!dot(&image, x, y) || frame.hit(x, y).is_some());
-            assert!(dot(&image, x, y) || !frame.outline(x, y));
+            assert!(!dot(&image, x, y) || frame.seen(x, y).is_some());
+            assert!(dot(&image, x, y) || !frame.outline(&scene, x, y));
         }
         let (frame, image) = drawn(View::Outline, Style::Braille, ColorDepth::True);
         for (x, y) in pixels(&frame) {
-            assert_eq!(dot(&image, x, y), frame.outline(x, y));
+            assert_eq!(dot(&image, x, y), frame.outline(&scene, x, y));
         }
     }
 
     #[test]
     fn an_edge_belongs_to_the_nearer_sphere() {
-        let frame = frame_of(&scene(), View::Outline);
-        for (x, y) in pixels(&frame).filter(|&(x, y)| frame.outline(x, y)) {
-            let here = frame.hit(x, y).expect("an edge is of a hit");
+        let scene = scene();
+        let frame = frame_of(&scene, View::Outline);
+        for (x, y) in pixels(&frame).filter(|&(x, y)| frame.outline(&scene, x, y)) {
+            let here = frame.hit(&scene, x, y).expect("an edge is of a hit");
             let around = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)];
-            let beyond = |(x, y)| frame.hit(x, y).is_none_or(|there| there.t > here.t);
+            let beyond = |(x, y)| frame.hit(&scene, x, y).is_none_or(|there| there.t > here.t);
             assert!(around.into_iter().any(beyond), "({x}, {y})");
         }
         // Where the two meet on the row through both, the farther one has no edge of its own.
-        assert!(frame.outline(4, 7) && !frame.outline(3, 7));
+        assert!(frame.outline(&scene, 4, 7) && !frame.outline(&scene, 3, 7));
     }
 
     #[test]

@@ -81,7 +81,7 @@ pub(super) fn ink(
     let tone = match frame.view() {
         View::Shade | View::Class => shade(frame, scene, x, y),
         View::Outline => outline(frame, scene, x, y),
-        View::Depth => depth_tone(frame, x, y),
+        View::Depth => depth_tone(frame, scene, x, y),
         View::Normal => normal(frame, scene, x, y),
         View::Delta => delta(frame, x, y),
         View::Lost => lost(frame, x, y),
@@ -130,7 +130,7 @@ fn shade(frame: &Frame, scene: &Scene, x: u32, y: u32) -> Option<Tone> {
 }
 
 fn outline(frame: &Frame, scene: &Scene, x: u32, y: u32) -> Option<Tone> {
-    frame.outline(x, y).then_some(Tone {
+    frame.outline(scene, x, y).then_some(Tone {
         glyph: '#',
         level: 1.0,
         quarters: FULL,
@@ -145,8 +145,8 @@ fn color_at(frame: &Frame, scene: &Scene, x: u32, y: u32) -> Option<Rgb> {
     Some(scene.bodies.get(seen).map_or(WHITE, |b| color_of(seen, b)))
 }
 
-fn depth_tone(frame: &Frame, x: u32, y: u32) -> Option<Tone> {
-    let t = frame.hit(x, y)?.t;
+fn depth_tone(frame: &Frame, scene: &Scene, x: u32, y: u32) -> Option<Tone> {
+    let t = frame.hit(scene, x, y)?.t;
     let level = frame.nearness(t);
     Some(Tone {
         glyph: ramp(level),

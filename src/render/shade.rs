@@ -1,9 +1,12 @@
 //! How bright a hit is.
 
+use std::ops::Neg;
+
 use glam::DVec3;
 
+use super::lanes::{Real, along, cross, dot, sub};
 use crate::geometry::{Ray, Sphere};
-use crate::method::{Coefficients, Method, Place};
+use crate::method::{Method, Place};
 use crate::scene::Light;
 
 /// What is seen of a surface that no light reaches.
@@ -29,81 +32,154 @@ impl Hit<'_> {
     ///
     /// A method that is far off shows as a wrong brightness, not as a hole.
     pub(super) fn brightness(&self, light: Option<Light>) -> f32 {
-        let cosine = match light {
-            None => self.headlight(),
-            Some(light) => self.lambert(light),
+        let cosine = match (self.method, light) {
+            (Method::Exact, light) => {
+                return self.spot().brightness(light.as_ref().map(position)) as f32;
+            }
+            (method, None) => {
+                // A discriminant below 0 is one that only rounding put there.
+                let q = method.coefficients(self.ray, self.sphere);
+                let r = f64::from(self.sphere.radius);
+                (q.discriminant.at_least(0.0) / (4.0 * q.a * (r * r))).sqrt()
+            }
+            (_, Some(light)) => {
+                let outward = self.outward();
+                let center = self.sphere.center.to_array().map(f64::from);
+                let to_light = sub(sub(position(&light), center), outward);
+                cosine(to_light, facing(outward, self.is_inside()))
+            }
         };
-        // A point sphere has no normal and a root past the range no place: both are lit in full.
-        let cosine = if cosine.is_nan() { 1.0 } else { cosine };
-        (AMBIENT + (1.0 - AMBIENT) * cosine.clamp(0.0, 1.0)) as f32
-    }
-
-    /// cos θ = √(Δ/(4Ar²)). A discriminant below 0 is one that only rounding put there.
-    fn headlight(&self) -> f64 {
-        let method = match self.method {
-            // To the bits that a shade shows, binary64 has the exact Δ.
-            Method::Exact => Method::Double,
-            method => method,
-        };
-        let q = method.coefficients(self.ray, self.sphere);
-        let r = f64::from(self.sphere.radius);
-        (q.discriminant.max(0.0) / (4.0 * q.a * (r * r))).sqrt()
-    }
-
-    /// The cosine of the angle between the light and the normal on the side that is seen; below 0
-    /// where the surface turns away.
-    fn lambert(&self, light: Light) -> f64 {
-        let p = self.point();
-        cosine(light.position.as_dvec3() - p, self.normal_at(p))
+        dimmed(cosine) as f32
     }
 
     /// A normal on the side that is seen, of any length.
     pub(super) fn normal(&self) -> DVec3 {
-        self.normal_at(self.point())
+        facing(self.outward(), self.is_inside()).into()
     }
 
-    fn normal_at(&self, p: DVec3) -> DVec3 {
-        let outward = p - self.sphere.center.as_dvec3();
-        if outward.dot(self.ray.direction.as_dvec3()) > 0.0 {
-            -outward
-        } else {
-            outward
+    /// p − c, where p is the visible point.
+    fn outward(&self) -> [f64; 3] {
+        let spot = self.spot();
+        match self.method {
+            Method::Exact => spot.outward(),
+            _ => along(spot.o, self.t.into(), spot.d),
         }
     }
 
-    /// p = p0 + t·d.
-    fn point(&self) -> DVec3 {
-        let t = match self.method {
-            Method::Exact => self.root(),
-            _ => self.t.into(),
-        };
-        self.ray.origin.as_dvec3() + t * self.ray.direction.as_dvec3()
+    fn is_inside(&self) -> bool {
+        self.place == Place::Inside
     }
 
-    /// The visible root in binary64: nothing shows the bits by which it differs from the exact one.
-    fn root(&self) -> f64 {
-        let Coefficients {
-            a,
-            b,
-            c,
-            discriminant,
-            ..
-        } = Method::Double.coefficients(self.ray, self.sphere);
-        let half_b = b / 2.0;
-        let s = discriminant.max(0.0).sqrt() / 2.0;
-        let q = half_b.abs() + s;
-        match (self.place, half_b < 0.0) {
-            _ if q == 0.0 => 0.0,
-            (Place::Inside, true) => q / a,
-            (Place::Inside, false) => -c / q,
-            (_, true) => c / q,
-            (_, false) => -q / a,
+    fn spot(&self) -> Spot<f64> {
+        let [origin, d, center] = [self.ray.origin, self.ray.direction, self.sphere.center]
+            .map(|v| v.to_array().map(f64::from));
+        Spot {
+            o: sub(origin, center),
+            d,
+            center,
+            r: self.sphere.radius.into(),
+            inside: self.is_inside(),
         }
     }
 }
 
-fn cosine(u: DVec3, v: DVec3) -> f64 {
-    u.dot(v) / (u.length() * v.length())
+/// Where `exact` sees a sphere, for one ray or for several in lanes.
+///
+/// It is worked out in binary64: nothing shows the bits by which that differs from the rounded root,
+/// so no root needs to be rounded for a shade.
+pub(super) struct Spot<T> {
+    /// o = p0 − c.
+    pub o: [T; 3],
+    /// The direction of the ray.
+    pub d: [T; 3],
+    /// c.
+    pub center: [T; 3],
+    /// r.
+    pub r: T,
+    /// Whether the visible root is the far one.
+    pub inside: bool,
+}
+
+impl<T: Real> Spot<T> {
+    /// As [`Hit::brightness`].
+    #[inline(always)]
+    pub(super) fn brightness(&self, light: Option<[f64; 3]>) -> T {
+        dimmed(match light {
+            None => self.headlight(),
+            Some(light) => self.lambert(light.map(T::of)),
+        })
+    }
+
+    /// A r² and D = A r² − ‖o × d‖².
+    #[inline(always)]
+    fn discriminant(&self) -> [T; 2] {
+        let k = cross(self.o, self.d);
+        let arr = dot(self.d, self.d) * (self.r * self.r);
+        [arr, arr - dot(k, k)]
+    }
+
+    /// cos θ = √(Δ/(4Ar²)).
+    #[inline(always)]
+    fn headlight(&self) -> T {
+        let [arr, reduced] = self.discriminant();
+        (reduced.at_least(0.0) / arr).sqrt()
+    }
+
+    /// The cosine of the angle between the light and the normal on the side that is seen; below 0
+    /// where the surface turns away.
+    #[inline(always)]
+    fn lambert(&self, light: [T; 3]) -> T {
+        let outward = self.outward();
+        let to_light = sub(sub(light, self.center), outward);
+        cosine(to_light, facing(outward, self.inside))
+    }
+
+    /// o + t·d.
+    #[inline(always)]
+    fn outward(&self) -> [T; 3] {
+        along(self.o, self.root(), self.d)
+    }
+
+    /// The visible root.
+    #[inline(always)]
+    fn root(&self) -> T {
+        let [_, reduced] = self.discriminant();
+        let a = dot(self.d, self.d);
+        let b = dot(self.o, self.d);
+        let c = dot(self.o, self.o) - self.r * self.r;
+        let root = reduced.at_least(0.0).sqrt();
+        if self.inside {
+            ((root - b) / a).where_negative(b, -c / (root + b))
+        } else {
+            (c / (root - b)).where_negative(b, -(root + b) / a)
+        }
+    }
+}
+
+/// The brightness that a cosine gives. A point sphere has no normal and a root past the range no
+/// place: where there is no cosine a surface is lit in full.
+#[inline(always)]
+fn dimmed<T: Real>(cosine: T) -> T {
+    T::of(AMBIENT) + T::of(1.0 - AMBIENT) * cosine.at_most(1.0).at_least(0.0)
+}
+
+/// The side of a surface that is seen.
+#[inline(always)]
+fn facing<T: Real>(outward: [T; 3], inside: bool) -> [T; 3] {
+    if inside {
+        outward.map(Neg::neg)
+    } else {
+        outward
+    }
+}
+
+#[inline(always)]
+fn cosine<T: Real>(u: [T; 3], v: [T; 3]) -> T {
+    dot(u, v) / (dot(u, u) * dot(v, v)).sqrt()
+}
+
+fn position(light: &Light) -> [f64; 3] {
+    light.position.to_array().map(f64::from)
 }
 
 #[cfg(test)]
@@ -142,7 +218,8 @@ mod tests {
             for x in [0.0, 0.25, 0.5, 0.9, 1.0] {
                 let ray = ray(x);
                 let cosine = f64::from(1.0 - x * x).sqrt();
-                let off = hit(method, &ray, &UNIT).headlight() - cosine;
+                let expected = AMBIENT + (1.0 - AMBIENT) * cosine;
+                let off = f64::from(hit(method, &ray, &UNIT).brightness(None)) - expected;
                 assert!(off.abs() < 1e-5, "{method} {x} {off}");
             }
         }
@@ -168,7 +245,8 @@ mod tests {
         for ray in &rays {
             for method in [Method::Exact, Method::Double] {
                 let hit = hit(method, ray, &UNIT);
-                assert!((hit.point().length() - 1.0).abs() < 1e-6);
+                let p = DVec3::from(hit.outward());
+                assert!((p.length() - 1.0).abs() < 1e-6);
                 assert!(hit.normal().dot(ray.direction.as_dvec3()) <= 0.0);
             }
         }
@@ -189,14 +267,14 @@ mod tests {
 
     #[test]
     fn the_inside_is_lit_on_its_inner_side() {
-        let from_centre = Ray {
+        let outward = Ray {
             origin: Vec3::ZERO,
             direction: Vec3::Z,
         };
         let light = Light {
             position: Vec3::ZERO,
         };
-        let hit = hit(Method::Exact, &from_centre, &UNIT);
+        let hit = hit(Method::Exact, &outward, &UNIT);
         assert_eq!(hit.brightness(Some(light)), 1.0);
         assert_eq!(hit.brightness(None), 1.0);
     }

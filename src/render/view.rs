@@ -113,6 +113,16 @@ impl View {
         }
     }
 
+    /// Whether nothing is shown but what is seen before the eye, of the sphere that is seen.
+    pub(super) const fn shows_only_what_is_seen(self) -> bool {
+        !matches!(self, Self::Class | Self::Delta | Self::Stage)
+    }
+
+    /// Whether the visible roots themselves are shown, or numbers that depend on their last bits.
+    pub(super) const fn shows_roots(self) -> bool {
+        matches!(self, Self::Depth)
+    }
+
     /// Whether pixels differ by how bright they are, and not only by what they are.
     pub(super) const fn has_levels(self) -> bool {
         !matches!(self, Self::Class | Self::Outline)
