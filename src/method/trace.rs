@@ -582,7 +582,7 @@ mod tests {
                 .numbers
                 .ends_with("the sign of D is open")
         );
-        let whole = tangent.step("D, in whole numbers").unwrap();
+        let whole = tangent.step("D, not rounded").unwrap();
         assert_eq!(whole.numbers, "tangent, near 3, far 3");
         let tilted = trace(
             Method::Exact,

@@ -88,15 +88,16 @@ impl Eye {
         }
     }
 
-    /// The pixels at which a method may find that the line meets `sphere`, or fail to tell.
-    pub(super) fn window(&self, sphere: &Sphere) -> Window {
+    /// The pixels at which a method may find that the line passes the centre of `sphere` at no more
+    /// than `reach` times its radius, or fail to tell. With a reach of 1 these are hits.
+    pub(super) fn window(&self, sphere: &Sphere, reach: f64) -> Window {
         let o = sphere.center.as_dvec3() - self.origin;
         let distance = o.length() + self.spread;
         let radius = f64::from(sphere.radius);
         if !(self.ordinary && distance <= FARTHEST && radius <= FARTHEST) {
             return Window::whole(self.size);
         }
-        let radius = self.inflated(radius, distance);
+        let radius = self.inflated(radius, reach, distance);
         let [a, b, z] = self.axes.map(|axis| o.dot(axis));
         Window {
             columns: self.span(a, z, radius, self.step[0], self.size.width),
@@ -106,10 +107,11 @@ impl Eye {
 
     /// The radius of a sphere that every line meets of which a method may say that it meets the
     /// sphere of this `radius` at this `distance`. A method that errs by E in Δ/4A takes the line
-    /// at distance p from the centre for a hit if p² ≤ r² + E at most.
-    fn inflated(&self, radius: f64, distance: f64) -> f64 {
+    /// at distance p from the centre for a hit if p² ≤ r² + E at most; with a `reach` of k, for one
+    /// that passes within k r, where Δ/4A > (1 − k²) r², if p² ≤ (k r)² + E.
+    fn inflated(&self, radius: f64, reach: f64, distance: f64) -> f64 {
         let square = radius * radius;
-        let taken = square + DISCRIMINANT_ERROR * (distance * distance + square);
+        let taken = reach * reach * square + DISCRIMINANT_ERROR * (distance * distance + square);
         taken.sqrt() + RAY_ERROR * (distance + self.origin.length()) + UNDERFLOW
     }
 
