@@ -174,25 +174,30 @@ fn root_steps(
 /// A stage after the first: what it found and settled.
 fn stage_step(truth: &Truth, record: &Record, found: &Findings) -> Step {
     let (symbol, why, code) = match found.stage {
-        Stage::Binary64 | Stage::Compensated => (
+        Stage::Binary64 | Stage::Unrounded => (
+            "D, unrounded",
+            "The inputs are small whole numbers: of all of stage 1, only √ and ÷ were rounded.",
+            "Stage::Unrounded => unrounded(input, discriminant),",
+        ),
+        Stage::Compensated => (
             "C, compensated",
             "C cancels: the rounding errors of its differences, squares and sums are added back.",
             "Stage::Compensated => compensated(input, discriminant),",
         ),
-        Stage::Plain => (
+        Stage::Whole => (
             "D, in whole numbers",
-            "The inputs are small whole numbers of some unit: so is everything else, exactly.",
-            "Stage::Plain => Plain::of(input).map(|plain| consult(stage, &plain, open)),",
+            "The inputs are whole numbers of 30 bits of some unit: so is everything else, exactly.",
+            "Stage::Whole => whole(input, open),",
         ),
         Stage::DoubleDouble => (
             "D, double-double",
             "The same formulas with twice the bits, and a bound that is so much smaller.",
-            "Stage::DoubleDouble => Some(consult(stage, &Doubled::new(input), open)),",
+            "Stage::DoubleDouble => Some(double_double(input, open)),",
         ),
         Stage::Integer => (
             "D, integers",
             "Whole numbers of 1152 bits, which hold every possible D: nothing is rounded.",
-            "Stage::Integer => Some(consult(stage, &Exact::new(input), open)),",
+            "Stage::Integer => Some(integer(input, open)),",
         ),
     };
     let (value, exact) = match (found.stage, &found.estimate) {
@@ -232,11 +237,15 @@ fn answer_steps(truth: &Truth, record: &Record) -> [Step; 2] {
                 "let [t, too] = bounds.map(rounding::round);",
                 "Both ends of what the bound leaves round to this one number.",
             ),
+            Stage::Unrounded => (
+                "let settle = |_, bounded| rounding::by_bound(bounded);",
+                "Both ends of what the bound leaves round to this one number.",
+            ),
             Stage::Compensated => (
                 "settled: rounding::by_bound(bounded),",
                 "Both ends of what the bound leaves round to this one number.",
             ),
-            Stage::Plain | Stage::DoubleDouble | Stage::Integer => (
+            Stage::Whole | Stage::DoubleDouble | Stage::Integer => (
                 "None => rounding::by_signs(which, bounded, quadratic),",
                 "Of the two numbers left, the signs of f(m) and f′(m) half way between choose this.",
             ),
