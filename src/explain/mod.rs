@@ -6,6 +6,7 @@
 
 mod compare;
 mod derivation;
+mod figure;
 mod number;
 mod panel;
 mod steps;
@@ -16,8 +17,9 @@ use crate::geometry::{Ray, Sphere};
 use crate::method::{Coefficients, Method, Place, Solution, Trace};
 use crate::scene::{Body, Scene};
 
-pub use compare::comparison;
+pub use compare::{comparison, measured_bits};
 pub use derivation::{Drawn, Question, Step, derivation};
+pub use figure::{Float, Ink, bits, curve, slice};
 pub use number::{Digits, Glyphs, number, vector};
 pub use panel::{Line, Role, Span, fit, lines, plain_text};
 pub use steps::{StepLook, question_lines, step_lines, step_list, steps_text, wrap};

@@ -14,6 +14,10 @@ use crate::render::{Style, View};
 use crate::scene::{Aim, Camera};
 
 impl Explorer {
+    #[expect(
+        clippy::too_many_lines,
+        reason = "one arm for each action, so that the compiler finds a missing one"
+    )]
     pub(super) fn act(&mut self, action: Action) {
         match action {
             Action::CursorLeft => self.move_cursor(-1, 0),
@@ -86,6 +90,9 @@ impl Explorer {
 
             Action::PanelQuadratic => self.panel = Panel::Quadratic,
             Action::PanelSteps => self.panel = Panel::Steps,
+            Action::PanelSlice => self.panel = Panel::Slice,
+            Action::PanelCurve => self.panel = Panel::Curve,
+            Action::PanelBits => self.panel = Panel::Bits,
             Action::PanelCompare => self.panel = Panel::Compare,
             Action::NextStep => self.next_step(),
             Action::PreviousStep => self.go_to_step(self.step_at.saturating_sub(1)),
@@ -93,6 +100,9 @@ impl Explorer {
             Action::LastStep => self.go_to_step(usize::MAX),
             Action::Predict => self.toggle_prediction(),
             Action::Board => self.board = !self.board,
+            Action::ScrubForward => self.scrub(1.0),
+            Action::ScrubBack => self.scrub(-1.0),
+            Action::ScrubHome => self.scrubbed = None,
             Action::NextComparison => self.turn_comparison(),
 
             Action::Help => self.mode = Mode::Help { scroll: 0 },
@@ -136,6 +146,7 @@ impl Explorer {
             Command::View(view) => self.options.view = view,
             Command::Panel(panel) => self.panel = panel,
             Command::Step(name) => self.go_to_step_named(&name),
+            Command::At(t) => self.scrubbed = Some(t),
             Command::Compare(method) => {
                 self.other_method = Some(method);
                 self.panel = Panel::Compare;

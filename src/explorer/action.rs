@@ -202,6 +202,12 @@ actions! {
     PanelQuadratic "panel-quadratic" ["1"] Steps;
     /// panel: the derivation, a step at a time
     PanelSteps "panel-steps" ["2"] Steps;
+    /// panel: the plane through ray and centre
+    PanelSlice "panel-slice" ["3"] Steps;
+    /// panel: the curve f(t) = At² + Bt + C
+    PanelCurve "panel-curve" ["4"] Steps;
+    /// panel: the bits of the step's number
+    PanelBits "panel-bits" ["5"] Steps;
     /// panel: the chosen method beside another
     PanelCompare "panel-compare" ["6"] Steps;
     /// open the steps; go to the next one, or reveal its answer
@@ -216,6 +222,12 @@ actions! {
     Predict "predict" ["P"] Steps;
     /// board: one step, large, for the back row
     Board "board" ["O"] Steps;
+    /// scrub t forward along the ray
+    ScrubForward "scrub-forward" [")"] Steps;
+    /// scrub t back along the ray
+    ScrubBack "scrub-back" ["("] Steps;
+    /// t back to where something is seen
+    ScrubHome "scrub-home" ["/"] Steps;
     /// compare with the next method
     NextComparison "next-comparison" ["C"] Steps;
 

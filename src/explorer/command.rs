@@ -37,6 +37,8 @@ pub enum Command {
     Panel(Panel),
     /// Go to the step of the derivation of that name or number.
     Step(String),
+    /// Put the moving point of slice and curve at this t.
+    At(f64),
     /// Compare with this method.
     Compare(Method),
     /// Take cells to be this many times as high as wide.
@@ -63,6 +65,11 @@ pub const WITH_ARGUMENT: &[(&str, &str, &str)] = &[
     ),
     ("panel", "NAME", "show this panel"),
     ("step", "NAME", "go to the step of that name or number"),
+    (
+        "t",
+        "VALUE",
+        "put the moving point of slice and curve at this t",
+    ),
     ("compare", "NAME", "compare with this method"),
     ("stride", "LENGTH", "move and grow spheres by this much"),
     (
@@ -101,6 +108,10 @@ impl Command {
             "stride" => positive(rest, "stride").map(Self::Stride),
             "panel" => choice(rest, "panel", Panel::ALL, Panel::name).map(Self::Panel),
             "step" => argument(rest, "step", "a step's name or number").map(Self::Step),
+            "t" => match parse_number("t", rest) {
+                Ok(t) => Ok(Self::At(t.into())),
+                Err(e) => Err(e.to_string()),
+            },
             "compare" => choice(rest, "compare", Method::ALL, Method::name).map(Self::Compare),
             "aspect" => positive(rest, "aspect").map(|a| Self::Aspect(a.into())),
             "" => Err("Type a command; tab completes, esc leaves.".into()),

@@ -60,8 +60,8 @@ impl Layout {
         if area.width >= WIDE {
             let most = body.width - PANEL.0;
             let usual = body.width - (body.width * 2 / 5).clamp(PANEL.0, PANEL.1);
-            let rest = body.width - PANEL.1.min(most);
-            let view = wanted.map_or(usual, |(cols, _)| cols.clamp(rest.min(most), most));
+            // A picture of its own size leaves all the rest to the panels.
+            let view = wanted.map_or(usual, |(cols, _)| cols.clamp(LEAST.0, most));
             (layout.view, layout.panel) = split_columns(body, view);
         } else if area.height >= TALL {
             let usual = body.height - body.height / 2;

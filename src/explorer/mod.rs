@@ -95,6 +95,8 @@ pub struct Explorer {
     prediction: Prediction,
     /// One step is shown large, in the place of picture and panels.
     board: bool,
+    /// t of the moving point; without it the point is where something is seen.
+    scrubbed: Option<f64>,
     /// The method that the chosen one is compared with; without it, the next one.
     other_method: Option<Method>,
     mode: Mode,
@@ -127,6 +129,7 @@ impl Explorer {
             step_at: 0,
             prediction: Prediction::default(),
             board: false,
+            scrubbed: None,
             other_method: None,
             mode: Mode::Normal,
             message: None,
