@@ -2,13 +2,16 @@
 
 use glam::Vec3;
 
-use super::lanes::{LANES, Lanes, Real, dot};
+use super::lanes::{Lanes, Real, dot};
 use crate::geometry::Ray;
 use crate::scene::{Rays, Size};
 
+/// Columns and rows of a tile; a multiple of the lanes.
+pub(super) const TILE: usize = 8;
+
 /// The rays of all pixels: what they share once, what varies as three arrays.
 ///
-/// A row takes a whole number of lanes. The pixels that fill it up lie beyond the right edge; their
+/// A row takes a whole number of tiles. The pixels that fill it up lie beyond the right edge; their
 /// rays are the camera's too, so nothing that is worked out for them can do harm.
 #[derive(Debug, Clone)]
 pub(super) struct Field {
@@ -46,7 +49,7 @@ impl Field {
         }
         self.camera = Some(*rays);
         self.size = rays.size;
-        self.stride = (rays.size.width as usize).next_multiple_of(LANES);
+        self.stride = (rays.size.width as usize).next_multiple_of(TILE);
         self.perspective = rays.perspective;
         let centre = rays.ray(0, 0);
         self.shared = if rays.perspective {

@@ -11,33 +11,41 @@ use crate::scene::Light;
 
 /// Names the sphere at each pixel and says how the line meets it; with `roots` rounds the root, too.
 pub(super) fn identify(question: &Question, nearest: &Nearest, seen: &mut Layer, roots: bool) {
-    for place in 0..question.field.places() {
-        let entry = if question.field.is_pixel(place) {
-            nearest.body(place)
-        } else {
-            NOBODY
-        };
-        seen.body[place] = number(entry).unwrap_or(NOBODY);
-        seen.t[place] = nearest.t(place);
-        seen.contact[place] = match number(entry) {
-            None => {
-                seen.t[place] = f32::INFINITY;
-                Contact::Miss
-            }
-            Some(_) if entry & ASK == 0 && !roots => {
-                if entry & INSIDE == 0 {
-                    Contact::Secant
-                } else {
-                    Contact::Inside
-                }
-            }
-            Some(number) => {
-                let sphere = &question.bodies[number as usize].sphere;
-                let answer = Method::Exact.solve(&question.field.ray(place), sphere);
-                seen.t[place] = answer.visible().unwrap_or(f32::INFINITY);
-                Contact::of(&answer)
-            }
-        };
+    for place in (0..question.field.places()).step_by(LANES) {
+        let entries = nearest.bodies(place);
+        let to_ask = |entry| entry != NOBODY && (roots || entry & ASK != 0);
+        let body = &mut seen.body[place..place + LANES];
+        let contact = &mut seen.contact[place..place + LANES];
+        let t = &mut seen.t[place..place + LANES];
+        for l in 0..LANES {
+            body[l] = number(entries[l]).unwrap_or(NOBODY);
+            contact[l] = known_contact(entries[l]);
+            t[l] = if entries[l] == NOBODY {
+                f32::INFINITY
+            } else {
+                nearest.t(place + l)
+            };
+        }
+        if !entries.into_iter().any(to_ask) {
+            continue;
+        }
+        for l in (0..LANES).filter(|&l| to_ask(entries[l])) {
+            let sphere = &question.bodies[body[l] as usize].sphere;
+            let answer = Method::Exact.solve(&question.field.ray(place + l), sphere);
+            t[l] = answer.visible().unwrap_or(f32::INFINITY);
+            contact[l] = Contact::of(&answer);
+        }
+    }
+}
+
+/// How the line meets a sphere about which no method had to be asked.
+const fn known_contact(entry: u32) -> Contact {
+    if entry == NOBODY {
+        Contact::Miss
+    } else if entry & INSIDE == 0 {
+        Contact::Secant
+    } else {
+        Contact::Inside
     }
 }
 

@@ -135,6 +135,7 @@ impl Frame {
                 self.nearest.ask(&question, first + i as u32, bounds, least);
             }
         }
+        self.nearest.trim(&self.field);
     }
 
     /// Works out, once for each pixel, what the view asks of what is seen there.

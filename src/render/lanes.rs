@@ -6,7 +6,7 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// How many numbers go side by side.
-pub(super) const LANES: usize = 8;
+pub(super) const LANES: usize = 4;
 
 /// What a formula asks of one number or of several in lanes.
 pub(super) trait Real:
@@ -60,7 +60,6 @@ impl Real for f64 {
 
 /// Numbers side by side.
 #[derive(Debug, Clone, Copy)]
-#[repr(align(64))]
 pub(super) struct Lanes(pub [f64; LANES]);
 
 impl Lanes {

@@ -1,8 +1,10 @@
 //! The nearest hits of a picture by `exact`: only where a sphere can be seen, and by a certified
 //! test in binary64 that leaves the rest to the method itself.
 
+use std::array::from_fn;
+
 use super::cover::Bounds;
-use super::field::Field;
+use super::field::{Field, TILE};
 use super::lanes::{LANES, Lanes, Real, dot, sub};
 use super::layer::refill;
 use crate::geometry::Sphere;
@@ -22,9 +24,6 @@ pub(super) const INSIDE: u32 = 1 << 30;
 ///
 /// A root there is off by less than 2⁻¹⁸ of itself: see [`Asked::new`].
 const SAME: f32 = 1.0 / (1 << 16) as f32;
-
-/// Pixels in a row of a tile, and rows.
-const TILE: usize = LANES;
 
 /// After so many pixels of a tile changed its bound is worked out anew.
 const STALE: u32 = 24;
@@ -167,14 +166,23 @@ impl Nearest {
         self.tally = Tally::default();
     }
 
-    /// The sphere seen at a place, with its marks.
-    pub(super) fn body(&self, place: usize) -> u32 {
-        self.body[place]
-    }
-
     /// About where the sphere at a place is hit.
     pub(super) fn t(&self, place: usize) -> f32 {
         self.t[place]
+    }
+
+    /// Forgets what was found for places beyond the right edge.
+    pub(super) fn trim(&mut self, field: &Field) {
+        let width = field.size().width as usize;
+        for row in self.body.chunks_mut(field.stride().max(1)) {
+            row[width..].fill(NOBODY);
+        }
+    }
+
+    /// The entries of a run of places.
+    pub(super) fn bodies(&self, place: usize) -> [u32; LANES] {
+        let bodies = &self.body[place..place + LANES];
+        from_fn(|l| bodies[l])
     }
 
     /// Whether everything seen within `bounds` is nearer than `least`.
@@ -211,18 +219,21 @@ impl Nearest {
         least: f32,
     ) {
         let stride = question.field.stride();
-        let first = bounds.left as usize / LANES;
-        let last = bounds.right as usize / LANES;
+        // Runs begin at the sphere's own left edge: a small one takes one run a row. A run that would
+        // leave the row begins earlier: asking twice, or beyond an edge, changes nothing.
+        let latest = stride - LANES;
         for y in bounds.top as usize..=bounds.bottom as usize {
             let tiles = y / TILE * self.tiles.across;
-            for column in first..=last {
-                if is_before(self.tiles.far[tiles + column], least) {
+            for x in (bounds.left as usize..=bounds.right as usize).step_by(LANES) {
+                let x = x.min(latest);
+                let [first, last] = [x / TILE, (x + LANES - 1) / TILE].map(|column| tiles + column);
+                let far = self.tiles.far[first].max(self.tiles.far[last]);
+                if is_before(far, least) {
                     self.tally.hidden_runs += 1;
                     continue;
                 }
-                let place = y * stride + column * LANES;
-                let changed = self.test::<PERSPECTIVE, INSIDE>(question, asked, place);
-                self.note_change(tiles + column, changed);
+                let changed = self.test::<PERSPECTIVE, INSIDE>(question, asked, y * stride + x);
+                self.note_change(first, changed);
             }
         }
     }
@@ -260,56 +271,65 @@ impl Nearest {
             c / (root - b)
         };
 
-        let mut new = [f32::INFINITY; LANES];
-        let mut open = 0;
-        for l in 0..LANES {
-            let (b, d) = (b.0[l], discriminant.0[l]);
-            // Outside a ray that draws no nearer meets nothing.
-            let d = if INSIDE || b < 0.0 {
-                d
+        // Outside, a ray that draws no nearer meets nothing.
+        let discriminant = if INSIDE {
+            discriminant
+        } else {
+            discriminant.where_negative(b, Lanes::of(f64::NEG_INFINITY))
+        };
+        let is_hit = |l: usize| INSIDE || discriminant.0[l] > accepted.0[l];
+        let new: [f32; LANES] = from_fn(|l| {
+            if is_hit(l) {
+                t.0[l] as f32
             } else {
-                f64::NEG_INFINITY
-            };
-            let is_hit = INSIDE || d > accepted.0[l];
-            let is_open = !is_hit && d >= -error.0[l];
-            new[l] = if is_hit { t.0[l] as f32 } else { f32::INFINITY };
-            open |= u32::from(is_open) << l;
-        }
+                f32::INFINITY
+            }
+        });
+        let doubtful: [u32; LANES] =
+            from_fn(|l| u32::from(!is_hit(l)) & u32::from(discriminant.0[l] >= -error.0[l]));
+
         self.tally.tested += LANES as u64;
         let entry = asked.number | if INSIDE { self::INSIDE } else { 0 };
-        let changed = self.keep_nearer(entry, place, &new, &mut open);
-        if open == 0 {
+        let (changed, tied) = self.keep_nearer(entry, place, &new);
+        let open: [u32; LANES] = from_fn(|l| doubtful[l] | tied[l]);
+        if open.iter().fold(0, |any, o| any | o) == 0 {
             changed
         } else {
             changed + self.settle(question, asked, place, open)
         }
     }
 
-    /// Notes the roots of one sphere where they are nearer; adds to `open` where it cannot tell.
+    /// Notes the roots of one sphere where they are nearer: at how many places they are, and where it
+    /// cannot tell.
     #[inline(always)]
-    fn keep_nearer(&mut self, entry: u32, place: usize, new: &[f32; LANES], open: &mut u32) -> u32 {
-        let t = &mut self.t[place..place + LANES];
-        let body = &mut self.body[place..place + LANES];
-        let mut changed = 0;
-        let mut tied = 0;
-        for (l, &new) in new.iter().enumerate() {
-            let nearer = is_before(new, t[l]);
-            let farther = is_before(t[l], new) || new == f32::INFINITY;
-            t[l] = if nearer { new } else { t[l] };
-            body[l] = if nearer { entry } else { body[l] };
-            changed += u32::from(nearer);
-            tied |= u32::from(!nearer && !farther) << l;
+    fn keep_nearer(&mut self, entry: u32, place: usize, new: &[f32; LANES]) -> (u32, [u32; LANES]) {
+        let t: &mut [f32] = &mut self.t[place..place + LANES];
+        let body: &mut [u32] = &mut self.body[place..place + LANES];
+        let old: [f32; LANES] = from_fn(|l| t[l]);
+        let nearer: [bool; LANES] = from_fn(|l| is_before(new[l], old[l]));
+        let tied: [u32; LANES] = from_fn(|l| {
+            let farther = is_before(old[l], new[l]) || new[l] == f32::INFINITY;
+            u32::from(!nearer[l]) & u32::from(!farther)
+        });
+        for l in 0..LANES {
+            t[l] = if nearer[l] { new[l] } else { old[l] };
+            body[l] = if nearer[l] { entry } else { body[l] };
         }
-        *open |= tied;
-        changed
+        (nearer.iter().map(|&n| u32::from(n)).sum(), tied)
     }
 
     /// Asks the method itself at the open places of a run.
     #[cold]
     #[inline(never)]
-    fn settle(&mut self, question: &Question, asked: &Asked, place: usize, open: u32) -> u32 {
+    fn settle(
+        &mut self,
+        question: &Question,
+        asked: &Asked,
+        place: usize,
+        open: [u32; LANES],
+    ) -> u32 {
         (0..LANES)
-            .filter(|l| open >> l & 1 == 1)
+            .filter(|&l| open[l] != 0)
             .filter(|l| self.ask_at(question, asked, place + l))
             .count() as u32
     }
