@@ -8,7 +8,8 @@
 use glam::DVec3;
 
 use super::lanes::{LANES, Lanes, Real};
-use crate::scene::{Body, Rays};
+use crate::geometry::Sphere;
+use crate::scene::{Body, Rays, Size};
 
 /// A sphere is widened by this share of its distance and radius before it is projected.
 ///
@@ -27,16 +28,100 @@ pub(super) const BLOCK: usize = 64;
 /// beyond its last.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Bounds {
-    pub left: i32,
-    pub right: i32,
-    pub top: i32,
-    pub bottom: i32,
+    pub left: i16,
+    pub right: i16,
+    pub top: i16,
+    pub bottom: i16,
 }
 
 impl Bounds {
+    /// No pixel.
+    pub(super) const NONE: Self = Self {
+        left: i16::MAX,
+        right: -1,
+        top: i16::MAX,
+        bottom: -1,
+    };
+
+    /// All pixels of a picture.
+    pub(super) const fn whole(size: Size) -> Self {
+        Self {
+            left: 0,
+            right: size.width as i16 - 1,
+            top: 0,
+            bottom: size.height as i16 - 1,
+        }
+    }
+
     /// Whether there is no pixel.
     pub(super) const fn is_empty(&self) -> bool {
         self.left > self.right || self.top > self.bottom
+    }
+
+    /// How many rows there are.
+    pub(super) const fn rows(&self) -> u64 {
+        if self.is_empty() {
+            0
+        } else {
+            (self.bottom - self.top) as u64 + 1
+        }
+    }
+
+    /// How many pixels there are.
+    pub(super) const fn area(&self) -> u64 {
+        if self.is_empty() {
+            0
+        } else {
+            self.rows() * ((self.right - self.left) as u64 + 1)
+        }
+    }
+
+    /// Whether the two have no pixel in common.
+    #[inline(always)]
+    pub(super) const fn is_apart_from(&self, other: Self) -> bool {
+        self.within(other).is_empty()
+    }
+
+    /// The pixels that the two have in common.
+    #[inline(always)]
+    pub(super) const fn within(&self, other: Self) -> Self {
+        const fn most(a: i16, b: i16) -> i16 {
+            if a > b { a } else { b }
+        }
+        const fn least(a: i16, b: i16) -> i16 {
+            if a < b { a } else { b }
+        }
+        Self {
+            left: most(self.left, other.left),
+            right: least(self.right, other.right),
+            top: most(self.top, other.top),
+            bottom: least(self.bottom, other.bottom),
+        }
+    }
+
+    /// The least rectangle of whole runs of `n` pixels that holds this one.
+    pub(super) const fn in_runs_of(self, n: i16) -> Self {
+        Self {
+            left: self.left / n * n,
+            right: self.right / n * n + n - 1,
+            ..self
+        }
+    }
+
+    /// The least rectangle that holds both.
+    pub(super) fn union(self, other: Self) -> Self {
+        if self.is_empty() {
+            return other;
+        }
+        if other.is_empty() {
+            return self;
+        }
+        Self {
+            left: self.left.min(other.left),
+            right: self.right.max(other.right),
+            top: self.top.min(other.top),
+            bottom: self.bottom.max(other.bottom),
+        }
     }
 }
 
@@ -73,21 +158,28 @@ impl Block {
     /// Takes in at most [`BLOCK`] spheres.
     fn load(&mut self, bodies: &[Body]) {
         for (i, body) in bodies.iter().enumerate() {
-            let center = body.sphere.center;
-            self.center[0][i] = center.x;
-            self.center[1][i] = center.y;
-            self.center[2][i] = center.z;
-            self.radius[i] = body.sphere.radius;
+            self.put(i, &body.sphere);
         }
     }
 
-    /// The pixels that sphere `i` of the block can cover.
+    fn put(&mut self, i: usize, sphere: &Sphere) {
+        self.center[0][i] = sphere.center.x;
+        self.center[1][i] = sphere.center.y;
+        self.center[2][i] = sphere.center.z;
+        self.radius[i] = sphere.radius;
+    }
+
+    /// The pixels that sphere `i` of the block can cover; none if it lies behind the eye.
     pub(super) const fn bounds(&self, i: usize) -> Bounds {
+        if self.behind[i] {
+            return Bounds::NONE;
+        }
+        // No picture is larger than `Size::LARGEST`.
         Bounds {
-            left: self.left[i],
-            right: self.right[i],
-            top: self.top[i],
-            bottom: self.bottom[i],
+            left: self.left[i] as i16,
+            right: self.right[i] as i16,
+            top: self.top[i] as i16,
+            bottom: self.bottom[i] as i16,
         }
     }
 
@@ -153,6 +245,18 @@ impl Projector {
                 self.bound_lanes::<false>(block, i);
             }
         }
+    }
+
+    /// The pixels that one sphere can cover, and a lower bound of its visible roots.
+    pub(super) fn bound_one(&self, sphere: &Sphere) -> (Bounds, f32) {
+        let mut block = Block::default();
+        block.put(0, sphere);
+        if self.perspective {
+            self.bound_lanes::<true>(&mut block, 0);
+        } else {
+            self.bound_lanes::<false>(&mut block, 0);
+        }
+        (block.bounds(0), block.least(0))
     }
 
     #[inline(always)]

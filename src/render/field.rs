@@ -2,7 +2,8 @@
 
 use glam::Vec3;
 
-use super::lanes::{Lanes, Real, dot};
+use super::cover::Bounds;
+use super::lanes::{LANES, Lanes, Real, dot};
 use crate::geometry::Ray;
 use crate::scene::{Rays, Size};
 
@@ -111,6 +112,32 @@ impl Field {
     /// The place of pixel (x, y).
     pub(super) const fn place(&self, x: u32, y: u32) -> usize {
         y as usize * self.stride + x as usize
+    }
+
+    /// The places of the pixels within `bounds`, row by row.
+    pub(super) fn places_within(&self, bounds: Bounds) -> impl Iterator<Item = usize> + use<> {
+        let stride = self.stride;
+        (bounds.top..=bounds.bottom).flat_map(move |y| {
+            let row = y as usize * stride;
+            (bounds.left..=bounds.right).map(move |x| row + x as usize)
+        })
+    }
+
+    /// The places at which runs of [`LANES`] begin that together hold the pixels within `bounds`.
+    pub(super) fn runs_within(&self, bounds: Bounds) -> impl Iterator<Item = usize> + use<> {
+        let stride = self.stride;
+        let bounds = if bounds.is_empty() {
+            Bounds::NONE
+        } else {
+            bounds
+        };
+        let first = bounds.left as usize / LANES * LANES;
+        (bounds.top..=bounds.bottom).flat_map(move |y| {
+            let row = y as usize * stride;
+            (first..=bounds.right as usize)
+                .step_by(LANES)
+                .map(move |x| row + x)
+        })
     }
 
     /// Whether a place is that of a pixel.

@@ -1,17 +1,26 @@
 //! The finish: what the view asks of the sphere that is seen, once for each pixel, not for those
 //! spheres that lost.
 
+use super::cover::Bounds;
 use super::lanes::{LANES, Lanes, Real, sub};
 use super::layer::{Contact, Layer};
 use super::nearest::{ASK, INSIDE, NOBODY, Nearest, Question, number};
+use super::plan::Counts;
 use super::shade::{Hit, Spot};
 use crate::geometry::Sphere;
 use crate::method::{Method, Place};
 use crate::scene::Light;
 
 /// Names the sphere at each pixel and says how the line meets it; with `roots` rounds the root, too.
-pub(super) fn identify(question: &Question, nearest: &Nearest, seen: &mut Layer, roots: bool) {
-    for place in (0..question.field.places()).step_by(LANES) {
+pub(super) fn identify(
+    question: &Question,
+    nearest: &Nearest,
+    seen: &mut Layer,
+    part: Bounds,
+    roots: bool,
+    counts: &mut Counts,
+) {
+    for place in question.field.runs_within(part) {
         let entries = nearest.bodies(place);
         let to_ask = |entry| entry != NOBODY && (roots || entry & ASK != 0);
         let body = &mut seen.body[place..place + LANES];
@@ -32,6 +41,7 @@ pub(super) fn identify(question: &Question, nearest: &Nearest, seen: &mut Layer,
         for l in (0..LANES).filter(|&l| to_ask(entries[l])) {
             let sphere = &question.bodies[body[l] as usize].sphere;
             let answer = Method::Exact.solve(&question.field.ray(place + l), sphere);
+            counts.rounded += 1;
             t[l] = answer.visible().unwrap_or(f32::INFINITY);
             contact[l] = Contact::of(&answer);
         }
@@ -49,37 +59,26 @@ const fn known_contact(entry: u32) -> Contact {
     }
 }
 
-/// Where light comes from.
-pub(super) struct Lighting {
-    light: Option<Light>,
-    position: Option<[f64; 3]>,
-}
-
-impl Lighting {
-    pub(super) fn new(light: Option<Light>) -> Self {
-        Self {
-            light,
-            position: light.map(|l| l.position.to_array().map(f64::from)),
-        }
-    }
-}
-
-/// The brightness of each pixel; 0 where nothing is seen.
+/// The brightness of each pixel within `part`; 0 where nothing is seen.
 pub(super) fn shade(
     question: &Question,
-    nearest: &Nearest,
     seen: &Layer,
-    lighting: &Lighting,
+    light: Option<Light>,
+    part: Bounds,
     value: &mut [f32],
+    counts: &mut Counts,
 ) {
-    for place in (0..question.field.places()).step_by(LANES) {
+    let position = light.map(|light| light.position.to_array().map(f64::from));
+    for place in question.field.runs_within(part) {
         let bodies: &[u32] = &seen.body[place..place + LANES];
         let value = &mut value[place..place + LANES];
-        if bodies.iter().all(|&b| b == NOBODY) {
+        let visible = bodies.iter().filter(|&&b| b != NOBODY).count();
+        if visible == 0 {
             value.fill(0.0);
             continue;
         }
-        let lanes = spot(question, bodies, place).brightness(lighting.position);
+        counts.shaded += visible as u64;
+        let lanes = spot(question, bodies, place).brightness(position);
         for l in 0..LANES {
             value[l] = if bodies[l] == NOBODY {
                 0.0
@@ -87,17 +86,17 @@ pub(super) fn shade(
                 lanes.0[l] as f32
             };
         }
-        // The lanes take every root for the near one.
-        for l in 0..LANES {
-            if lighting.light.is_some() && seen.contact[place + l] == Contact::Inside {
+        // The lanes take every root for the near one; without a light that does not matter.
+        if light.is_some() {
+            for l in (0..LANES).filter(|l| seen.contact[place + l] == Contact::Inside) {
                 let hit = Hit {
                     method: Method::Exact,
                     ray: &question.field.ray(place + l),
                     sphere: &question.bodies[bodies[l] as usize].sphere,
-                    t: nearest.t(place + l),
+                    t: seen.t[place + l],
                     place: Place::Inside,
                 };
-                value[l] = hit.brightness(lighting.light);
+                value[l] = hit.brightness(light);
             }
         }
     }

@@ -46,6 +46,10 @@ impl Contact {
         }
     }
 
+    const fn is_behind(self) -> bool {
+        matches!(self, Self::TangentBehind | Self::SecantBehind)
+    }
+
     /// Whether the line meets a sphere, be it behind the eye: the tutorial's boolean.
     pub const fn meets(self) -> bool {
         !matches!(self, Self::Miss | Self::Nan)
@@ -61,10 +65,11 @@ pub(super) struct Layer {
 }
 
 impl Layer {
-    pub(super) fn clear(&mut self, pixels: usize) {
-        refill(&mut self.t, pixels, f32::INFINITY);
-        refill(&mut self.body, pixels, NOBODY);
-        refill(&mut self.contact, pixels, Contact::Miss);
+    /// Nothing is known of a pixel.
+    pub(super) fn clear(&mut self, i: usize) {
+        self.t[i] = f32::INFINITY;
+        self.body[i] = NOBODY;
+        self.contact[i] = Contact::Miss;
     }
 
     /// Makes room for so many pixels; what they held is of no use.
@@ -74,8 +79,15 @@ impl Layer {
         self.contact.resize(pixels, Contact::Miss);
     }
 
-    /// Takes note of one answer; whether it is of the sphere that is seen so far.
-    pub(super) fn note(&mut self, i: usize, number: u32, answer: &Solution) -> bool {
+    /// Takes note of one answer; whether it is of the sphere that is seen so far. What is behind the
+    /// eye is noted only if `also_behind`.
+    pub(super) fn note(
+        &mut self,
+        i: usize,
+        number: u32,
+        answer: &Solution,
+        also_behind: bool,
+    ) -> bool {
         let contact = Contact::of(answer);
         match answer.visible() {
             Some(t) if (t, number) < (self.t[i], self.body[i]) => {
@@ -84,19 +96,11 @@ impl Layer {
                 self.contact[i] = contact;
                 true
             }
-            None if self.body[i] == NOBODY => {
+            None if self.body[i] == NOBODY && (also_behind || !contact.is_behind()) => {
                 self.contact[i] = self.contact[i].max(contact);
                 false
             }
             _ => false,
-        }
-    }
-
-    pub(super) fn forget_what_is_behind(&mut self) {
-        for contact in &mut self.contact {
-            if matches!(contact, Contact::TangentBehind | Contact::SecantBehind) {
-                *contact = Contact::Miss;
-            }
         }
     }
 }

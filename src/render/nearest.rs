@@ -7,8 +7,9 @@ use super::cover::Bounds;
 use super::field::{Field, TILE};
 use super::lanes::{LANES, Lanes, Real, dot, sub};
 use super::layer::refill;
+use super::plan::Counts;
 use crate::geometry::Sphere;
-use crate::method::Method;
+use crate::method::exact;
 use crate::scene::Body;
 
 /// No sphere: greater than the number of any.
@@ -28,17 +29,6 @@ const SAME: f32 = 1.0 / (1 << 16) as f32;
 /// After so many pixels of a tile changed its bound is worked out anew.
 const STALE: u32 = 24;
 
-/// What the questions of one frame came to.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(super) struct Tally {
-    /// Pixels at which the certified test was made.
-    pub tested: u64,
-    /// Pixels at which `exact` itself was asked.
-    pub asked: u64,
-    /// Runs of pixels left out since all that is seen there is nearer.
-    pub hidden_runs: u64,
-}
-
 /// What is asked: which of these spheres the rays hit.
 #[derive(Clone, Copy)]
 pub(super) struct Question<'a> {
@@ -54,7 +44,6 @@ pub(super) struct Nearest {
     /// Which sphere, perhaps with [`ASK`].
     body: Vec<u32>,
     tiles: Tiles,
-    pub(super) tally: Tally,
 }
 
 /// For each tile an upper bound of its roots. Roots only fall, so a stale bound is still one.
@@ -163,12 +152,24 @@ impl Nearest {
         let tiles = self.tiles.across * (field.size().height as usize).div_ceil(TILE);
         refill(&mut self.tiles.far, tiles, f32::INFINITY);
         refill(&mut self.tiles.changed, tiles, 0);
-        self.tally = Tally::default();
     }
 
     /// About where the sphere at a place is hit.
     pub(super) fn t(&self, place: usize) -> f32 {
         self.t[place]
+    }
+
+    /// Forgets what was found within `part`.
+    pub(super) fn reopen(&mut self, field: &Field, part: Bounds) {
+        for y in part.top as usize..=part.bottom as usize {
+            let row = y * field.stride();
+            let run = row + part.left as usize..=row + part.right as usize;
+            self.t[run.clone()].fill(f32::INFINITY);
+            self.body[run].fill(NOBODY);
+            let tiles = y / TILE * self.tiles.across;
+            let run = tiles + part.left as usize / TILE..=tiles + part.right as usize / TILE;
+            self.tiles.far[run].fill(f32::INFINITY);
+        }
     }
 
     /// Forgets what was found for places beyond the right edge.
@@ -199,14 +200,27 @@ impl Nearest {
     }
 
     /// Asks about one sphere within `bounds`, where no visible root of it is below `least`.
-    pub(super) fn ask(&mut self, question: &Question, number: u32, bounds: Bounds, least: f32) {
+    pub(super) fn ask(
+        &mut self,
+        question: &Question,
+        number: u32,
+        bounds: Bounds,
+        least: f32,
+        counts: &mut Counts,
+    ) {
         let Question { field, bodies } = *question;
         let asked = Asked::new(number, &bodies[number as usize].sphere, field, least);
         match (asked.way, field.perspective()) {
-            (Way::Alone, _) => self.ask_alone(question, &asked, bounds, least),
-            (Way::Inside, _) => self.ask_runs::<true, true>(question, &asked, bounds, least),
-            (Way::Outside, true) => self.ask_runs::<true, false>(question, &asked, bounds, least),
-            (Way::Outside, false) => self.ask_runs::<false, false>(question, &asked, bounds, least),
+            (Way::Alone, _) => self.ask_alone(question, &asked, bounds, least, counts),
+            (Way::Inside, _) => {
+                self.ask_runs::<true, true>(question, &asked, bounds, least, counts)
+            }
+            (Way::Outside, true) => {
+                self.ask_runs::<true, false>(question, &asked, bounds, least, counts)
+            }
+            (Way::Outside, false) => {
+                self.ask_runs::<false, false>(question, &asked, bounds, least, counts)
+            }
         }
     }
 
@@ -217,6 +231,7 @@ impl Nearest {
         asked: &Asked,
         bounds: Bounds,
         least: f32,
+        counts: &mut Counts,
     ) {
         let stride = question.field.stride();
         // Runs begin at the sphere's own left edge: a small one takes one run a row. A run that would
@@ -229,10 +244,11 @@ impl Nearest {
                 let [first, last] = [x / TILE, (x + LANES - 1) / TILE].map(|column| tiles + column);
                 let far = self.tiles.far[first].max(self.tiles.far[last]);
                 if is_before(far, least) {
-                    self.tally.hidden_runs += 1;
+                    counts.hidden_runs += 1;
                     continue;
                 }
-                let changed = self.test::<PERSPECTIVE, INSIDE>(question, asked, y * stride + x);
+                let changed =
+                    self.test::<PERSPECTIVE, INSIDE>(question, asked, y * stride + x, counts);
                 self.note_change(first, changed);
             }
         }
@@ -245,6 +261,7 @@ impl Nearest {
         question: &Question,
         asked: &Asked,
         place: usize,
+        counts: &mut Counts,
     ) -> u32 {
         let field = question.field;
         let varying = field.varying(place);
@@ -288,14 +305,14 @@ impl Nearest {
         let doubtful: [u32; LANES] =
             from_fn(|l| u32::from(!is_hit(l)) & u32::from(discriminant.0[l] >= -error.0[l]));
 
-        self.tally.tested += LANES as u64;
+        counts.tested += LANES as u64;
         let entry = asked.number | if INSIDE { self::INSIDE } else { 0 };
         let (changed, tied) = self.keep_nearer(entry, place, &new);
         let open: [u32; LANES] = from_fn(|l| doubtful[l] | tied[l]);
         if open.iter().fold(0, |any, o| any | o) == 0 {
             changed
         } else {
-            changed + self.settle(question, asked, place, open)
+            changed + self.settle(question, asked, place, open, counts)
         }
     }
 
@@ -327,19 +344,27 @@ impl Nearest {
         asked: &Asked,
         place: usize,
         open: [u32; LANES],
+        counts: &mut Counts,
     ) -> u32 {
         (0..LANES)
             .filter(|&l| open[l] != 0)
-            .filter(|l| self.ask_at(question, asked, place + l))
+            .filter(|l| self.ask_at(question, asked, place + l, counts))
             .count() as u32
     }
 
-    fn ask_alone(&mut self, question: &Question, asked: &Asked, bounds: Bounds, least: f32) {
+    fn ask_alone(
+        &mut self,
+        question: &Question,
+        asked: &Asked,
+        bounds: Bounds,
+        least: f32,
+        counts: &mut Counts,
+    ) {
         for y in bounds.top as u32..=bounds.bottom as u32 {
             for x in bounds.left as u32..=bounds.right as u32 {
                 let tile = y as usize / TILE * self.tiles.across + x as usize / TILE;
                 if !is_before(self.tiles.far[tile], least) {
-                    let changed = self.ask_at(question, asked, question.field.place(x, y));
+                    let changed = self.ask_at(question, asked, question.field.place(x, y), counts);
                     self.note_change(tile, changed.into());
                 }
             }
@@ -347,14 +372,24 @@ impl Nearest {
     }
 
     /// Asks the method itself at one place; whether this sphere is now what is seen there.
-    fn ask_at(&mut self, question: &Question, asked: &Asked, place: usize) -> bool {
+    fn ask_at(
+        &mut self,
+        question: &Question,
+        asked: &Asked,
+        place: usize,
+        counts: &mut Counts,
+    ) -> bool {
         let seen = number(self.body[place]);
         if !question.field.is_pixel(place) || seen == Some(asked.number) {
             return false;
         }
-        self.tally.asked += 1;
         let ray = question.field.ray(place);
-        let solve = |sphere| Method::Exact.solve(&ray, sphere).visible();
+        let mut solve = |sphere| {
+            let (answer, stages) = exact::solve_staged(&ray, sphere);
+            counts.solved += 1;
+            counts.stages[stages.last() as usize] += 1;
+            answer.visible()
+        };
         let Some(t) = solve(asked.sphere) else {
             return false;
         };
