@@ -9,7 +9,7 @@ use crate::explorer::{Explorer, Options};
 use crate::method::Method;
 use crate::render::{Style, View};
 use crate::scene::Scene;
-use crate::terminal::{self, Capability, Session, TerminalEvents};
+use crate::terminal::{self, Capability, Session};
 
 /// How the explorer opens.
 #[derive(Debug, Args)]
@@ -61,8 +61,7 @@ pub(super) fn run(arguments: &Explore) -> ExitCode {
         glyphs: capability.glyphs,
     };
     let mut explorer = Explorer::new(scene, &source, options);
-    let ended = Session::enter()
-        .and_then(|mut session| terminal::run(&mut explorer, &mut session, &mut TerminalEvents));
+    let ended = Session::enter().and_then(|mut session| terminal::run(&mut explorer, &mut session));
     match ended {
         Ok(status) => ExitCode::from(status),
         Err(e) => {

@@ -133,6 +133,15 @@ impl Explorer {
         }
     }
 
+    /// Ends the program, or asks first if that would lose something.
+    pub(super) fn quit(&mut self) {
+        if self.is_changed() {
+            self.mode = Mode::Ask(Question::Quit);
+        } else {
+            self.ended = Some(0);
+        }
+    }
+
     /// Ctrl-C ends the program as SIGINT would; with unsaved changes it asks first, once.
     pub(super) fn interrupt(&mut self) {
         if self.is_changed() && self.mode != Mode::Ask(Question::Quit) {
