@@ -20,6 +20,7 @@ mod panel;
 mod panels;
 mod picture;
 mod prompt;
+mod rescue;
 mod saving;
 mod spheres;
 mod stepping;
@@ -38,6 +39,7 @@ use mode::{Message, Mode, Prompt, Purpose};
 use panel::Panel;
 use picture::Picture;
 use prompt::Line;
+use rescue::Rescue;
 use saving::FilePlace;
 use stepping::Prediction;
 
@@ -105,6 +107,7 @@ pub struct Explorer {
     picture: Picture,
     mouse: bool,
     request: Option<Request>,
+    rescue: Option<Rescue>,
     ended: Option<u8>,
 }
 
@@ -146,6 +149,7 @@ impl Explorer {
             picture,
             mouse: false,
             request: None,
+            rescue: None,
             ended: None,
         }
     }

@@ -147,6 +147,28 @@ fn a_terminal_that_closes_ends_it_even_where_its_signal_is_ignored() {
 }
 
 #[test]
+fn unsaved_work_outlives_the_terminal_and_is_offered_again() {
+    let mut pty = Pty::explorer(Start::default());
+    pty.sends("x");
+    pty.waits_to_show("unsaved");
+    let home = pty.home();
+    assert_eq!(pty.hangs_up(), 129);
+
+    let mut pty = Pty::explorer(Start::default().home(&home));
+    pty.waits_to_show("Unsaved work of");
+    pty.sends("o");
+    pty.waits_to_show("c    21, 20, 20");
+    pty.is_sent(Signal::TERM);
+    assert_eq!(pty.ends(), 143);
+    pty.is_restored();
+    assert!(pty.shows("unsaved work is kept in"));
+
+    let state = home.path().join(".local/state/rayscope");
+    let kept = fs::read_dir(&state).expect("the folder").count();
+    assert_eq!(kept, 1, "the new file stands for the old");
+}
+
+#[test]
 fn every_usual_terminal_gets_colours_that_it_has() {
     for (term, colors, fewer) in [
         ("xterm-256color", true, false),

@@ -25,6 +25,7 @@ pub struct Start {
     size: (u16, u16),
     environment: Vec<(String, String)>,
     arguments: Vec<String>,
+    home: Option<Arc<TempDir>>,
     through: Option<String>,
 }
 
@@ -37,6 +38,7 @@ impl Default for Start {
                 .map(|(n, v)| (n.to_owned(), v.to_owned()))
                 .into(),
             arguments: Vec::new(),
+            home: None,
             through: None,
         }
     }
@@ -59,6 +61,12 @@ impl Start {
         self
     }
 
+    /// The home folder of an earlier start.
+    pub fn home(mut self, home: &Arc<TempDir>) -> Self {
+        self.home = Some(Arc::clone(home));
+        self
+    }
+
     /// Runs a line of shell, in which `"$@"` is the program.
     pub fn through(mut self, line: &str) -> Self {
         self.through = Some(line.into());
@@ -66,7 +74,10 @@ impl Start {
     }
 
     pub fn open(self) -> Pty {
-        let home = Arc::new(tempfile::tempdir().expect("a home"));
+        let home = self
+            .home
+            .clone()
+            .unwrap_or_else(|| Arc::new(tempfile::tempdir().expect("a home")));
         let pair = native_pty_system()
             .openpty(pty_size(self.size))
             .expect("a pty");
@@ -180,6 +191,10 @@ impl Pty {
 
     pub fn pid(&self) -> u32 {
         self.child.0.process_id().expect("a process")
+    }
+
+    pub fn home(&self) -> Arc<TempDir> {
+        Arc::clone(&self.home)
     }
 
     pub fn file(&self, name: &str) -> PathBuf {
