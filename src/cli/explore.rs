@@ -1,5 +1,9 @@
 //! `rayscope [SCENE]`: opens the explorer.
 
+use std::env;
+use std::io;
+use std::panic::{self, AssertUnwindSafe};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
@@ -9,7 +13,7 @@ use crate::explorer::{Explorer, Options};
 use crate::method::Method;
 use crate::render::{Style, View};
 use crate::scene::Scene;
-use crate::terminal::{self, Capability, Session, TerminalEvents};
+use crate::terminal::{self, Capability, Session};
 
 /// How the explorer opens.
 #[derive(Debug, Args)]
@@ -61,13 +65,48 @@ pub(super) fn run(arguments: &Explore) -> ExitCode {
         glyphs: capability.glyphs,
     };
     let mut explorer = Explorer::new(scene, &source, options);
-    let ended = Session::enter()
-        .and_then(|mut session| terminal::run(&mut explorer, &mut session, &mut TerminalEvents));
-    match ended {
-        Ok(status) => ExitCode::from(status),
-        Err(e) => {
-            complain(format!("the terminal failed: {e}"));
-            ExitCode::from(INVALID)
-        }
+    if let Some(folder) = state_folder() {
+        explorer.keep_in(&folder, &source);
     }
+    converse(&mut explorer)
+}
+
+/// Runs the explorer in the terminal; however that ends, unsaved work is kept.
+fn converse(explorer: &mut Explorer) -> ExitCode {
+    let mut session = match Session::enter() {
+        Ok(session) => session,
+        Err(e) => return failed(&e),
+    };
+    // After a panic only the scene is looked at, which is whole between any two changes.
+    let ended = panic::catch_unwind(AssertUnwindSafe(|| terminal::run(explorer, &mut session)));
+    let kept = explorer.finish();
+    drop(session);
+    match kept {
+        Ok(Some(path)) => complain(format_args!(
+            "unsaved work is kept in {}; opening the same scene offers it",
+            path.display()
+        )),
+        Ok(None) => {}
+        Err(sentence) => complain(sentence),
+    }
+    match ended {
+        Ok(Ok(status)) => ExitCode::from(status),
+        Ok(Err(e)) => failed(&e),
+        Err(panicked) => panic::resume_unwind(panicked),
+    }
+}
+
+fn failed(error: &io::Error) -> ExitCode {
+    complain(format_args!("the terminal failed: {error}"));
+    ExitCode::from(INVALID)
+}
+
+/// Where programs of this person keep what should outlive them, as the XDG base directories have it.
+fn state_folder() -> Option<PathBuf> {
+    let folder = |name| {
+        let path = PathBuf::from(env::var_os(name)?);
+        path.is_absolute().then_some(path)
+    };
+    let state = folder("XDG_STATE_HOME").or_else(|| Some(folder("HOME")?.join(".local/state")))?;
+    Some(state.join("rayscope"))
 }

@@ -2,13 +2,13 @@
 
 use std::path::PathBuf;
 
-use super::Explorer;
 use super::action::Action;
 use super::command::Command;
 use super::document::{Change, Document};
 use super::mode::{Form, Mode, Purpose, Question};
 use super::motion;
 use super::panel::Panel;
+use super::{Explorer, Request};
 use crate::method::Method;
 use crate::render::{Style, View};
 use crate::scene::{Aim, Camera};
@@ -122,13 +122,8 @@ impl Explorer {
                 let suggestion = self.suggested_file();
                 self.prompt(Purpose::SaveAs, &suggestion);
             }
-            Action::Quit => {
-                if self.is_changed() {
-                    self.mode = Mode::Ask(Question::Quit);
-                } else {
-                    self.ended = Some(0);
-                }
-            }
+            Action::Suspend => self.request = Some(Request::Suspend),
+            Action::Quit => self.quit(),
         }
     }
 

@@ -247,6 +247,8 @@ actions! {
     Save "save" ["ctrl-s"] Program;
     /// save the scene under another name
     SaveAs "save-as" ["ctrl-a"] Program;
+    /// stop, for the shell to take over; its `fg` comes back
+    Suspend "suspend" ["ctrl-z"] Program;
     /// quit; asks if there are unsaved changes
     Quit "quit" ["q"] Program;
 }

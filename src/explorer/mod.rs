@@ -20,6 +20,7 @@ mod panel;
 mod panels;
 mod picture;
 mod prompt;
+mod rescue;
 mod saving;
 mod spheres;
 mod stepping;
@@ -38,6 +39,7 @@ use mode::{Message, Mode, Prompt, Purpose};
 use panel::Panel;
 use picture::Picture;
 use prompt::Line;
+use rescue::Rescue;
 use saving::FilePlace;
 use stepping::Prediction;
 
@@ -103,7 +105,17 @@ pub struct Explorer {
     message: Option<Message>,
     screen: (u16, u16),
     picture: Picture,
+    mouse: bool,
+    request: Option<Request>,
+    rescue: Option<Rescue>,
     ended: Option<u8>,
+}
+
+/// What the explorer can't do itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Request {
+    /// Stop this process and give the terminal to the shell.
+    Suspend,
 }
 
 impl Explorer {
@@ -135,6 +147,9 @@ impl Explorer {
             message: None,
             screen: (0, 0),
             picture,
+            mouse: false,
+            request: None,
+            rescue: None,
             ended: None,
         }
     }
@@ -162,6 +177,26 @@ impl Explorer {
     /// Whether there are changes that were not saved.
     pub fn is_changed(&self) -> bool {
         self.document.is_changed()
+    }
+
+    /// Whether the person wants to use the mouse here rather than to select text.
+    pub const fn wants_mouse(&self) -> bool {
+        self.mouse
+    }
+
+    /// What the person has asked of whoever runs the explorer.
+    pub const fn take_request(&mut self) -> Option<Request> {
+        self.request.take()
+    }
+
+    /// Shows a sentence until the next key.
+    pub fn tell(&mut self, sentence: &str) {
+        self.say(sentence);
+    }
+
+    /// How the screen is drawn now.
+    pub const fn options(&self) -> Options {
+        self.options
     }
 
     /// Lets an event change the state; false if nothing on the screen can have changed.

@@ -1,6 +1,7 @@
 //! What keys mean now: actions, or text, or an answer.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use super::Explorer;
 use super::action::Action;
@@ -9,6 +10,7 @@ use super::draw;
 use super::field::{Field, parse_number};
 use super::key::Key;
 use super::prompt::Line;
+use super::rescue;
 
 /// What keys mean now.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,6 +69,7 @@ pub(super) struct Form {
 pub(super) enum Question {
     Quit,
     Open(String),
+    Recover { path: PathBuf, age: Duration },
     Overwrite { path: PathBuf, why: &'static str },
 }
 
@@ -79,6 +82,10 @@ impl Question {
             Self::Open(name) => {
                 format!("Unsaved changes.  o open {name} without saving   esc stay")
             }
+            Self::Recover { age, .. } => format!(
+                "Unsaved work of {} ago was kept.  o open it   d delete it   esc later",
+                rescue::words(*age)
+            ),
             Self::Overwrite { path, why } => {
                 format!("{} {why}.  o overwrite   esc keep it", path.display())
             }
@@ -130,6 +137,15 @@ impl Explorer {
             Mode::Prompt(prompt) => self.press_in_prompt(key, prompt),
             Mode::Form(form) => self.press_in_form(key, form),
             Mode::Ask(question) => self.answer(key, question),
+        }
+    }
+
+    /// Ends the program, or asks first if that would lose something.
+    pub(super) fn quit(&mut self) {
+        if self.is_changed() {
+            self.mode = Mode::Ask(Question::Quit);
+        } else {
+            self.ended = Some(0);
         }
     }
 
@@ -246,6 +262,8 @@ impl Explorer {
             }
             Question::Quit if key.is("q") => self.ended = Some(0),
             Question::Open(name) if key.is("o") => self.open(&name),
+            Question::Recover { path, .. } if key.is("o") => self.recover(&path),
+            Question::Recover { path, .. } if key.is("d") => self.discard(&path),
             Question::Overwrite { path, .. } if key.is("o") => self.write(&path),
             _ if key.is("esc") || key.is("n") => self.say("Nothing was changed."),
             question => self.mode = Mode::Ask(question),

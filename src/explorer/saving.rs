@@ -43,8 +43,12 @@ impl Explorer {
         match Scene::open(name) {
             Ok((scene, source)) => {
                 let (screen, options) = (self.screen, self.options);
+                let rescue = self.rescue.take();
                 *self = Self::new(scene, &source, options);
                 self.screen = screen;
+                if let Some(rescue) = rescue {
+                    self.keep_in(&rescue.folder, &source);
+                }
                 let about = self.scene().about.clone().unwrap_or_default();
                 self.say(format!("{}. {about}", self.scene().name));
             }
@@ -88,6 +92,7 @@ impl Explorer {
             Ok(stamp) => {
                 self.place = FilePlace::File(stamp);
                 self.document.mark_saved();
+                self.saved_as(path);
                 self.say(format!("Saved {}.", path.display()));
             }
             Err(sentence) => self.warn(sentence),

@@ -96,8 +96,9 @@ impl Eye {
         let o = sphere.center.as_dvec3() - self.origin;
         let radius = f64::from(sphere.radius);
         let error = RAY_ERROR * (o.length() + self.spread + self.origin.length() + radius);
+        let ahead = o.dot(self.axes[2]);
         // What is not a number may be anywhere.
-        !(o.dot(self.axes[2]) > radius + error)
+        ahead <= radius + error || (ahead - radius - error).is_nan()
     }
 
     /// The radius of a sphere that every line meets of which a method may say that it meets the

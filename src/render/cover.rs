@@ -54,7 +54,7 @@ impl Bounds {
     }
 
     /// Whether there is no pixel.
-    pub(super) const fn is_empty(&self) -> bool {
+    pub(super) const fn is_empty(self) -> bool {
         self.left > self.right || self.top > self.bottom
     }
 
