@@ -127,15 +127,8 @@ impl Explorer {
         let Some(reading) = &self.picture.reading else {
             return;
         };
-        let (x, y) = self.cursor;
-        let (col, row) = self.options.style.cell_of_pixel(x, y);
-        let cell = self.picture.image.cell(col, row);
-        let drawn = Drawn {
-            brightness: self.picture.frame.brightness(x, y),
-            glyph: cell.map_or(' ', |c| c.glyph),
-            style: self.options.style.name(),
-            view: self.options.view.shown_in(self.options.style).name(),
-        };
+        let Picture { frame, image, .. } = &self.picture;
+        let drawn = Drawn::at(self.cursor, frame, image, self.options.style);
         let steps = derivation(reading, self.scene(), &self.picture.rays, &drawn);
         let before = std::mem::take(&mut self.picture.steps);
         let is_new = |step: &Step| {
