@@ -254,7 +254,7 @@ fn change_colors(
     }
 }
 
-fn size(text: &str) -> Result<Size, String> {
+pub(super) fn size(text: &str) -> Result<Size, String> {
     let side = |digits: &str| {
         let number = digits.parse().ok()?;
         (1..=Size::LARGEST).contains(&number).then_some(number)
@@ -267,7 +267,7 @@ fn size(text: &str) -> Result<Size, String> {
         })
 }
 
-fn pixel(text: &str) -> Result<(u32, u32), String> {
+pub(super) fn pixel(text: &str) -> Result<(u32, u32), String> {
     text.split_once(',')
         .and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)))
         .ok_or_else(|| "expected a column and a row, counted from 0, such as 20,20".into())
