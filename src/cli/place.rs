@@ -29,6 +29,10 @@ pub(super) struct Place {
     #[arg(long, value_name = "STEP")]
     step: Option<String>,
 
+    /// Where the moving point of slice and curve is
+    #[arg(long = "t", value_name = "T", allow_negative_numbers = true)]
+    t: Option<f64>,
+
     /// The method beside the chosen one
     #[arg(long, value_name = "METHOD", value_parser = choice(&Method::ALL, Method::name))]
     compare: Option<Method>,
@@ -56,6 +60,7 @@ impl Place {
             size: self.size,
             panel: self.panel,
             step: self.step.clone(),
+            t: self.t.filter(|t| t.is_finite()),
             compare: self.compare,
             ..Opening::default()
         }

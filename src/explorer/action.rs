@@ -242,9 +242,9 @@ actions! {
     /// this page again: everything as the page has it
     TourAgain "tour-again" ["r"] Tour;
     /// next chapter
-    TourNextChapter "tour-next-chapter" [")"] Tour;
+    TourNextChapter "tour-next-chapter" ["ctrl-n"] Tour;
     /// first page of this chapter, or of the one before
-    TourPreviousChapter "tour-previous-chapter" ["("] Tour;
+    TourPreviousChapter "tour-previous-chapter" ["ctrl-p"] Tour;
     /// put the tour away and go back to your own scene; return to the tour
     Tour "tour" ["ctrl-t"] Tour;
 

@@ -35,6 +35,8 @@ pub struct Opening {
     pub panel: Option<Panel>,
     /// The step of the derivation, by name or number.
     pub step: Option<String>,
+    /// Where the moving point of slice and curve is.
+    pub t: Option<f64>,
     /// The method that the chosen one is compared with.
     pub compare: Option<Method>,
 }
@@ -64,6 +66,7 @@ impl Explorer {
         options.style = opening.style.unwrap_or(options.style);
         options.view = opening.view.unwrap_or(options.view);
         self.panel = opening.panel.unwrap_or(self.panel);
+        self.scrubbed = opening.t.or(self.scrubbed);
         self.other_method = opening.compare.or(self.other_method);
         self.arrival.target = target.or(self.arrival.target);
         if opening.step.is_some() {
@@ -117,6 +120,9 @@ impl Explorer {
             let plain = step.name.chars().all(|c| c.is_ascii_alphanumeric());
             let number = (self.step_at + 1).to_string();
             flag("step", if plain { step.name.clone() } else { number });
+        }
+        if let Some(t) = self.scrubbed {
+            flag("t", t.to_string());
         }
         if self.panel == Panel::Compare {
             flag("compare", self.other_method().name().into());

@@ -24,7 +24,7 @@ use crate::scene::{Builtin, FileError, Position, Scene, Size, Source};
 /// A walk through some pages, in their order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chapter {
-    /// The word by which it is asked for: its file's name without the extension.
+    /// The word by which it is asked for: its file's name without number and extension.
     pub name: String,
     /// The file it was read from; none if it came with the program.
     pub file: Option<PathBuf>,
@@ -60,12 +60,58 @@ pub(super) struct State {
     pub(super) panel: Panel,
     pub(super) compare: Option<Method>,
     pub(super) step: Option<String>,
+    /// Where the moving point of slice and curve is; none: at what is seen.
+    pub(super) t: Option<f64>,
     pub(super) predict: bool,
     pub(super) board: bool,
 }
 
 /// The chapters that come with the program, in their order.
-const BUILTIN: &[(&str, &str)] = &[("circle-and-line", include_str!("tour/circle-and-line.toml"))];
+const BUILTIN: &[(&str, &str)] = &[
+    (
+        "01-circle-and-line.toml",
+        include_str!("tour/01-circle-and-line.toml"),
+    ),
+    ("02-the-ray.toml", include_str!("tour/02-the-ray.toml")),
+    (
+        "03-substitution.toml",
+        include_str!("tour/03-substitution.toml"),
+    ),
+    ("04-a-b-c.toml", include_str!("tour/04-a-b-c.toml")),
+    (
+        "05-three-rays.toml",
+        include_str!("tour/05-three-rays.toml"),
+    ),
+    (
+        "06-the-screen.toml",
+        include_str!("tour/06-the-screen.toml"),
+    ),
+    (
+        "07-what-is-seen.toml",
+        include_str!("tour/07-what-is-seen.toml"),
+    ),
+    (
+        "08-behind-and-inside.toml",
+        include_str!("tour/08-behind-and-inside.toml"),
+    ),
+    ("09-half-b.toml", include_str!("tour/09-half-b.toml")),
+    (
+        "10-perspective.toml",
+        include_str!("tour/10-perspective.toml"),
+    ),
+    (
+        "11-the-lost-sphere.toml",
+        include_str!("tour/11-the-lost-sphere.toml"),
+    ),
+    (
+        "12-above-the-ground.toml",
+        include_str!("tour/12-above-the-ground.toml"),
+    ),
+    (
+        "13-what-exact-costs.toml",
+        include_str!("tour/13-what-exact-costs.toml"),
+    ),
+];
 
 /// The tour that comes with the program.
 pub fn builtin() -> Arc<[Chapter]> {
@@ -146,13 +192,23 @@ impl Chapter {
             let problem = "found no page, expected one at least, headed [[page]]";
             return Err(located(None, problem.into()));
         }
-        let name = Path::new(file).file_stem().map(|s| s.to_string_lossy());
         Ok(Self {
-            name: name.unwrap_or_default().into_owned(),
+            name: name_of(file),
             file: None,
             title: written.title,
             pages,
         })
+    }
+}
+
+/// A file's name without folder and extension, and without the number that puts it in its place.
+fn name_of(file: &str) -> String {
+    let stem = Path::new(file).file_stem().unwrap_or_default();
+    let stem = stem.to_string_lossy();
+    let rest = stem.trim_start_matches(|c: char| c.is_ascii_digit());
+    match rest.strip_prefix('-') {
+        Some(name) if !name.is_empty() => name.to_owned(),
+        _ => stem.into_owned(),
     }
 }
 
@@ -175,7 +231,8 @@ struct ChapterFile {
     page: Vec<PageFile>,
 }
 
-/// What a page may say. What it leaves out stays as on the page before.
+/// What a page may say. What it leaves out stays as on the page before, but for `step`, `t`,
+/// `predict` and `board`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct PageFile {
@@ -195,6 +252,7 @@ struct PageFile {
     panel: Option<Spanned<String>>,
     compare: Option<Spanned<String>>,
     step: Option<String>,
+    t: Option<f64>,
     #[serde(default)]
     predict: bool,
     #[serde(default)]
@@ -279,7 +337,8 @@ impl PageFile {
         }
         let compare = named(self.compare.as_ref(), "compare", Method::ALL, Method::name)?;
         state.compare = compare.or(state.compare);
-        state.step = self.step.clone().or(state.step);
+        state.step.clone_from(&self.step);
+        state.t = self.t;
         Ok(state)
     }
 
@@ -342,6 +401,7 @@ impl State {
             panel: Panel::default(),
             compare: None,
             step: None,
+            t: None,
             predict: false,
             board: false,
         }

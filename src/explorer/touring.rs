@@ -2,7 +2,7 @@
 //! under the picture that shows the text.
 //!
 //! ```text
-//! ── tour 3 of 13: substitution ── page 2 of 4 ── f next  F back  r again ──
+//! ── 3/13: the substitution, page 2/2 ──────────── f next  F back  r again ──
 //!  What there is to know, in a few lines.
 //!  Try: what there is to do.
 //! ```
@@ -69,6 +69,7 @@ struct Before {
     panel: Panel,
     step_at: usize,
     other_method: Option<Method>,
+    scrubbed: Option<f64>,
     /// What is tried out in the tour is not kept when the terminal is lost.
     rescue: Option<Rescue>,
 }
@@ -288,6 +289,8 @@ impl Explorer {
                 before,
             });
         }
+        // Numbers that differ from those of another page are no change that the person made.
+        self.picture.forget();
         let scene = Scene::clone(&state.scene);
         self.document.apply(Change::Scene(Box::new(scene.clone())));
         self.document.mark_saved();
@@ -302,6 +305,7 @@ impl Explorer {
         self.options.style = state.style.or(own_style).unwrap_or(self.options.style);
         self.panel = state.panel;
         self.other_method = state.compare;
+        self.scrubbed = state.t;
         self.prediction = Prediction {
             on: state.predict,
             ..Prediction::default()
@@ -317,7 +321,6 @@ impl Explorer {
     /// Takes the person's own work off the table, for `scene`.
     fn put_work_aside(&mut self, scene: &Scene) -> Before {
         let document = Document::new(scene.clone());
-        self.picture.forget();
         Before {
             document: std::mem::replace(&mut self.document, document),
             opened: std::mem::replace(&mut self.opened, scene.clone()),
@@ -333,6 +336,7 @@ impl Explorer {
             panel: self.panel,
             step_at: self.step_at,
             other_method: self.other_method,
+            scrubbed: self.scrubbed,
             rescue: self.rescue.take(),
         }
     }
@@ -359,6 +363,7 @@ impl Explorer {
         (self.step, self.usual_step) = (before.step, before.usual_step);
         (self.panel, self.step_at) = (before.panel, before.step_at);
         self.other_method = before.other_method;
+        self.scrubbed = before.scrubbed;
         self.rescue = before.rescue;
         (self.board, self.prediction) = (false, Prediction::default());
         self.scroll = 0;
@@ -496,7 +501,7 @@ impl Explorer {
             page,
         } = &tour.at;
         let title = format!(
-            " {} of {}: {}, page {} of {} ",
+            " {}/{}: {}, page {}/{} ",
             number + 1,
             chapters.len(),
             chapter.title,
@@ -513,7 +518,7 @@ impl Explorer {
         let next = if more { "f more" } else { "f next" };
         let away = "r again  ctrl-t leave";
         for keys in [
-            format!(" {next}  F back  ( ) chapters  {away} "),
+            format!(" {next}  F back  ctrl-n next chapter  {away} "),
             format!(" {next}  F back  {away} "),
             format!(" {next}  F back "),
             format!(" {next} "),
