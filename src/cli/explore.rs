@@ -8,7 +8,8 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use super::{INVALID, aspect, choice, complain};
+use super::place::Place;
+use super::{INVALID, MISUSED, aspect, choice, complain};
 use crate::explorer::{Explorer, Options};
 use crate::method::Method;
 use crate::render::{Style, View};
@@ -37,6 +38,9 @@ pub(super) struct Explore {
     /// Height of a character cell over its width
     #[arg(long, default_value_t = Options::default().aspect, value_parser = aspect)]
     aspect: f64,
+
+    #[command(flatten)]
+    place: Place,
 }
 
 /// Opens the explorer and ends with the exit status that the person left it with.
@@ -48,31 +52,44 @@ pub(super) fn run(arguments: &Explore) -> ExitCode {
             return ExitCode::from(INVALID);
         }
     };
-    let capability = match Capability::detect() {
-        Ok(capability) => capability,
-        Err(unfit) => {
-            complain(unfit.0);
-            return ExitCode::from(INVALID);
-        }
-    };
     let defaults = Options::default();
-    let options = Options {
+    let wanted = Options {
         method: arguments.method,
         style: arguments.style.unwrap_or(defaults.style),
         view: arguments.view.unwrap_or(defaults.view),
         aspect: arguments.aspect,
-        depth: capability.depth,
-        glyphs: capability.glyphs,
+        ..defaults
+    };
+    let options = match fitted(wanted) {
+        Ok(options) => options,
+        Err(status) => return status,
     };
     let mut explorer = Explorer::new(scene, &source, options);
+    if let Err(sentence) = explorer.set_out(&arguments.place.opening()) {
+        complain(sentence);
+        return MISUSED.into();
+    }
     if let Some(folder) = state_folder() {
         explorer.keep_in(&folder, &source);
     }
     converse(&mut explorer)
 }
 
+/// The options with what this terminal has; where it has too little, the status to end with.
+pub(super) fn fitted(options: Options) -> Result<Options, ExitCode> {
+    let capability = Capability::detect().map_err(|unfit| {
+        complain(unfit.0);
+        ExitCode::from(INVALID)
+    })?;
+    Ok(Options {
+        depth: capability.depth,
+        glyphs: capability.glyphs,
+        ..options
+    })
+}
+
 /// Runs the explorer in the terminal; however that ends, unsaved work is kept.
-fn converse(explorer: &mut Explorer) -> ExitCode {
+pub(super) fn converse(explorer: &mut Explorer) -> ExitCode {
     let mut session = match Session::enter() {
         Ok(session) => session,
         Err(e) => return failed(&e),

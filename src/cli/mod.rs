@@ -1,9 +1,11 @@
 //! The command line: parses the arguments and calls the part that does the work.
 
 mod explore;
+mod place;
 mod print;
 mod scenes;
 mod solve;
+mod tour;
 
 use std::fmt;
 use std::io::{ErrorKind, Write};
@@ -28,6 +30,7 @@ enum Command {
     Print(print::Print),
     Scenes(scenes::Scenes),
     Solve(solve::Solve),
+    Tour(Box<tour::Tour>),
 }
 
 /// Runs the program with the arguments of this process.
@@ -38,6 +41,7 @@ pub fn main() -> ExitCode {
         Some(Command::Print(arguments)) => print::run(&arguments),
         Some(Command::Scenes(arguments)) => scenes::run(&arguments),
         Some(Command::Solve(arguments)) => solve::run(&arguments),
+        Some(Command::Tour(arguments)) => tour::run(&arguments),
     }
 }
 

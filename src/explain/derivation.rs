@@ -10,6 +10,7 @@ use super::{Digits, Reading, Subject, number, vector};
 use crate::method::format::Signs;
 use crate::method::trace::{self, Measured, Trace};
 use crate::method::{Class, Method, Place, Precision};
+use crate::render::{Frame, Image, Style};
 use crate::scene::{Projection, Rays, Scene};
 
 /// What the picture made of a pixel.
@@ -23,6 +24,19 @@ pub struct Drawn {
     pub style: &'static str,
     /// What the picture shows: `shade`, `class`.
     pub view: &'static str,
+}
+
+impl Drawn {
+    /// What a frame and its image made of pixel (x, y).
+    pub fn at((x, y): (u32, u32), frame: &Frame, image: &Image, style: Style) -> Self {
+        let (col, row) = style.cell_of_pixel(x, y);
+        Self {
+            brightness: frame.brightness(x, y),
+            glyph: image.cell(col, row).map_or(' ', |cell| cell.glyph),
+            style: style.name(),
+            view: frame.view().name(),
+        }
+    }
 }
 
 /// One step of the derivation of a pixel.
@@ -275,7 +289,11 @@ fn count_step(subject: &Subject) -> Step {
     };
     Step {
         result: result.into(),
-        exact: subject.trace.verdict(Signs::Typographic),
+        losses: subject
+            .trace
+            .verdict(Signs::Typographic)
+            .into_iter()
+            .collect(),
         question: Some(Question::Count),
         code: "Class::of_discriminant(discriminant)".into(),
         ..Step::plain(

@@ -105,6 +105,13 @@ impl Explorer {
             Action::ScrubHome => self.scrubbed = None,
             Action::NextComparison => self.turn_comparison(),
 
+            Action::TourForward => self.tour_forward(),
+            Action::TourBack => self.tour_back(),
+            Action::TourAgain => self.tour_again(),
+            Action::TourNextChapter => self.tour_next_chapter(),
+            Action::TourPreviousChapter => self.tour_previous_chapter(),
+            Action::Tour => self.toggle_tour(),
+
             Action::Help => self.mode = Mode::Help { scroll: 0 },
             Action::CommandLine => self.prompt(Purpose::Command, ""),
             Action::Undo => self.travel(Document::undo, "Nothing to undo."),
@@ -122,6 +129,7 @@ impl Explorer {
                 let suggestion = self.suggested_file();
                 self.prompt(Purpose::SaveAs, &suggestion);
             }
+            Action::Link => self.pass_on(),
             Action::Suspend => self.request = Some(Request::Suspend),
             Action::Quit => self.quit(),
         }
@@ -142,6 +150,7 @@ impl Explorer {
             Command::Panel(panel) => self.panel = panel,
             Command::Step(name) => self.go_to_step_named(&name),
             Command::At(t) => self.scrubbed = Some(t),
+            Command::Tour(chapter) => self.tour_to(&chapter),
             Command::Compare(method) => {
                 self.other_method = Some(method);
                 self.panel = Panel::Compare;
@@ -211,10 +220,7 @@ impl Explorer {
         let size = self.size();
         let pixel = match probe.aim {
             Aim::Pixel(x, y) => Some((x, y)),
-            Aim::Point(p) => self.picture.rays.project(p.as_dvec3()).and_then(|[x, y]| {
-                let (x, y) = (x.round(), y.round());
-                (x >= 0.0 && y >= 0.0).then_some((x as u32, y as u32))
-            }),
+            Aim::Point(p) => self.pixel_of(p),
         };
         match pixel.filter(|&(x, y)| x < size.width && y < size.height) {
             Some((x, y)) => {

@@ -11,6 +11,7 @@ use super::field::{Field, parse_number};
 use super::key::Key;
 use super::prompt::Line;
 use super::rescue;
+use super::touring::Tour;
 
 /// What keys mean now.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,6 +71,7 @@ pub(super) enum Question {
     Quit,
     Open(String),
     Recover { path: PathBuf, age: Duration },
+    Tour,
     Overwrite { path: PathBuf, why: &'static str },
 }
 
@@ -86,6 +88,9 @@ impl Question {
                 "Unsaved work of {} ago was kept.  o open it   d delete it   esc later",
                 rescue::words(*age)
             ),
+            Self::Tour => {
+                "Unsaved changes.  s save   t tour: they wait behind it   esc stay".into()
+            }
             Self::Overwrite { path, why } => {
                 format!("{} {why}.  o overwrite   esc keep it", path.display())
             }
@@ -143,7 +148,7 @@ impl Explorer {
     /// Ends the program, or asks first if that would lose something.
     pub(super) fn quit(&mut self) {
         if self.is_changed() {
-            self.mode = Mode::Ask(Question::Quit);
+            self.ask_before_quitting();
         } else {
             self.ended = Some(0);
         }
@@ -152,10 +157,18 @@ impl Explorer {
     /// Ctrl-C ends the program as SIGINT would; with unsaved changes it asks first, once.
     pub(super) fn interrupt(&mut self) {
         if self.is_changed() && self.mode != Mode::Ask(Question::Quit) {
-            self.mode = Mode::Ask(Question::Quit);
+            self.ask_before_quitting();
         } else {
             self.ended = Some(130);
         }
+    }
+
+    /// Asks about what is unsaved, in front of it: work that waits behind the tour comes back first.
+    pub(super) fn ask_before_quitting(&mut self) {
+        if self.tour.as_ref().is_some_and(Tour::hides_changes) {
+            self.leave_tour();
+        }
+        self.mode = Mode::Ask(Question::Quit);
     }
 
     pub(super) fn press_in_help(&mut self, key: Key, scroll: usize) {
@@ -264,6 +277,8 @@ impl Explorer {
             Question::Open(name) if key.is("o") => self.open(&name),
             Question::Recover { path, .. } if key.is("o") => self.recover(&path),
             Question::Recover { path, .. } if key.is("d") => self.discard(&path),
+            Question::Tour if key.is("t") => self.visit_unsaved(),
+            Question::Tour if key.is("s") => self.save(),
             Question::Overwrite { path, .. } if key.is("o") => self.write(&path),
             _ if key.is("esc") || key.is("n") => self.say("Nothing was changed."),
             question => self.mode = Mode::Ask(question),

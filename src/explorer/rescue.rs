@@ -43,6 +43,7 @@ impl Explorer {
     /// To be called when the explorer is over: where unsaved work was kept, if there was any that
     /// the person has not given up.
     pub fn finish(&mut self) -> Result<Option<PathBuf>, String> {
+        self.leave_tour();
         if !self.is_changed() {
             return Ok(None);
         }

@@ -258,16 +258,16 @@ pub fn write(trace: &Trace, out: &mut impl fmt::Write, signs: Signs, digits: usi
             (Some(ulps), Some(exact)) if ulps != 0.0 => {
                 writeln!(
                     out,
-                    "    exact: {exact}, {} ulp off",
+                    "    exactly {exact}, {} ulp off",
                     ulps_text(ulps, signs)
                 )?;
             }
-            (None, _) => writeln!(out, "    exact: there is none")?,
+            (None, _) => writeln!(out, "    exactly, there is none")?,
             _ => {}
         }
-        for loss in &step.losses {
-            let first = if heavy == Some(i) {
-                " <- the first to lose much"
+        for (j, loss) in step.losses.iter().enumerate() {
+            let first = if heavy == Some(i) && j == 0 {
+                ": the first step to lose much"
             } else {
                 ""
             };

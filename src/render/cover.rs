@@ -59,7 +59,7 @@ impl Bounds {
     }
 
     /// How many rows there are.
-    pub(super) const fn rows(&self) -> u64 {
+    pub(super) const fn rows(self) -> u64 {
         if self.is_empty() {
             0
         } else {
@@ -68,7 +68,7 @@ impl Bounds {
     }
 
     /// How many pixels there are.
-    pub(super) const fn area(&self) -> u64 {
+    pub(super) const fn area(self) -> u64 {
         if self.is_empty() {
             0
         } else {
@@ -78,13 +78,13 @@ impl Bounds {
 
     /// Whether the two have no pixel in common.
     #[inline(always)]
-    pub(super) const fn is_apart_from(&self, other: Self) -> bool {
+    pub(super) const fn is_apart_from(self, other: Self) -> bool {
         self.within(other).is_empty()
     }
 
     /// The pixels that the two have in common.
     #[inline(always)]
-    pub(super) const fn within(&self, other: Self) -> Self {
+    pub(super) const fn within(self, other: Self) -> Self {
         const fn most(a: i16, b: i16) -> i16 {
             if a > b { a } else { b }
         }

@@ -213,13 +213,13 @@ impl Nearest {
         match (asked.way, field.perspective()) {
             (Way::Alone, _) => self.ask_alone(question, &asked, bounds, least, counts),
             (Way::Inside, _) => {
-                self.ask_runs::<true, true>(question, &asked, bounds, least, counts)
+                self.ask_runs::<true, true>(question, &asked, bounds, least, counts);
             }
             (Way::Outside, true) => {
-                self.ask_runs::<true, false>(question, &asked, bounds, least, counts)
+                self.ask_runs::<true, false>(question, &asked, bounds, least, counts);
             }
             (Way::Outside, false) => {
-                self.ask_runs::<false, false>(question, &asked, bounds, least, counts)
+                self.ask_runs::<false, false>(question, &asked, bounds, least, counts);
             }
         }
     }

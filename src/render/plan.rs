@@ -277,7 +277,7 @@ impl Plan {
     }
 
     fn stages(&self) -> Option<Line> {
-        let [stages @ .., integer] = &self.counts.stages;
+        let stages = &self.counts.stages;
         (self.method == Method::Exact && self.way != Way::Everything).then(|| Line {
             what: "stages of exact",
             kept: Stage::ALL
@@ -294,7 +294,6 @@ impl Plan {
                     .zip(stages)
                     .map(|(i, n)| (Stage::ALL.len() as u64 - 1 - i) * n)
                     .sum::<u64>()
-                    + 0 * integer
             ),
             because: "an earlier stage was sure",
         })

@@ -4,6 +4,7 @@
 //! updates, and draws once, as soon as the terminal has dealt with what was drawn before.
 
 mod capability;
+mod clipboard;
 mod device;
 mod keyboard;
 mod pace;
@@ -48,6 +49,8 @@ pub trait Link {
     fn is_ready(&mut self) -> bool;
     /// Brings the screen up to date.
     fn show(&mut self, explorer: &mut Explorer) -> io::Result<()>;
+    /// Puts text into the clipboard of whoever sits there, if their terminal does such things.
+    fn copy(&mut self, text: &str) -> io::Result<()>;
     /// Stops the explorer, for its shell to take over; false if nobody would let it go on.
     fn suspend(&mut self) -> bool;
 }
@@ -68,10 +71,12 @@ pub fn run(explorer: &mut Explorer, link: &mut impl Link) -> io::Result<u8> {
                 Some(Input::End(status)) => return Ok(status),
                 None => break,
             }
-            if let Some(Request::Suspend) = explorer.take_request()
-                && !link.suspend()
-            {
-                explorer.tell("There is no shell to go back to; q quits.");
+            match explorer.take_request() {
+                Some(Request::Suspend) if !link.suspend() => {
+                    explorer.tell("There is no shell to go back to; q quits.");
+                }
+                Some(Request::Copy(text)) => link.copy(&text)?,
+                Some(Request::Suspend) | None => {}
             }
             if let Some(status) = explorer.ended() {
                 return Ok(status);

@@ -12,6 +12,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use rustix::process::{Signal, kill_current_process_group};
 
+use super::clipboard;
 use super::device::Device;
 use super::keyboard::{Heard, Keyboard};
 use super::pace::{Pace, QUERY};
@@ -284,6 +285,14 @@ impl Link for Session {
         }
         self.pace.wrote(self.frame.len(), Instant::now());
         self.flush()
+    }
+
+    fn copy(&mut self, text: &str) -> io::Result<()> {
+        if self.standing == Standing::Ours && clipboard::is_worth_trying() {
+            self.frame.extend(clipboard::set(text).bytes());
+            self.flush()?;
+        }
+        Ok(())
     }
 
     fn suspend(&mut self) -> bool {

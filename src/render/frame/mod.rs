@@ -127,7 +127,7 @@ impl Frame {
                 [before.union(after), Bounds::NONE]
             });
         }
-        let redone: u64 = parts.iter().map(Bounds::area).sum();
+        let redone: u64 = parts.iter().map(|part| part.area()).sum();
         let all = self.size().area() as u64;
         if redone > all / 2 {
             self.start(scene, rays);
@@ -198,12 +198,12 @@ impl Frame {
     pub fn hit(&self, scene: &Scene, x: u32, y: u32) -> Option<Hit> {
         let body = self.seen(x, y)?;
         let place = self.index(x, y)?;
-        let t = if !self.roots_are_rough {
-            self.seen.t[place]
-        } else {
+        let t = if self.roots_are_rough {
             let sphere = &scene.bodies.get(body as usize)?.sphere;
             let ray = self.field.ray(place);
             self.plan.method().solve(&ray, sphere).visible()?
+        } else {
+            self.seen.t[place]
         };
         Some(Hit { body, t })
     }
