@@ -1,15 +1,20 @@
 //! `rayscope [SCENE]`: opens the explorer.
 
+use std::env;
+use std::io;
+use std::panic::{self, AssertUnwindSafe};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
 
-use super::{INVALID, aspect, choice, complain};
+use super::place::Place;
+use super::{INVALID, MISUSED, aspect, choice, complain};
 use crate::explorer::{Explorer, Options};
 use crate::method::Method;
 use crate::render::{Style, View};
 use crate::scene::Scene;
-use crate::terminal::{self, Capability, Session, TerminalEvents};
+use crate::terminal::{self, Capability, Session};
 
 /// How the explorer opens.
 #[derive(Debug, Args)]
@@ -33,6 +38,9 @@ pub(super) struct Explore {
     /// Height of a character cell over its width
     #[arg(long, default_value_t = Options::default().aspect, value_parser = aspect)]
     aspect: f64,
+
+    #[command(flatten)]
+    place: Place,
 }
 
 /// Opens the explorer and ends with the exit status that the person left it with.
@@ -44,30 +52,78 @@ pub(super) fn run(arguments: &Explore) -> ExitCode {
             return ExitCode::from(INVALID);
         }
     };
-    let capability = match Capability::detect() {
-        Ok(capability) => capability,
-        Err(unfit) => {
-            complain(unfit.0);
-            return ExitCode::from(INVALID);
-        }
-    };
     let defaults = Options::default();
-    let options = Options {
+    let wanted = Options {
         method: arguments.method,
         style: arguments.style.unwrap_or(defaults.style),
         view: arguments.view.unwrap_or(defaults.view),
         aspect: arguments.aspect,
-        depth: capability.depth,
-        glyphs: capability.glyphs,
+        ..defaults
+    };
+    let options = match fitted(wanted) {
+        Ok(options) => options,
+        Err(status) => return status,
     };
     let mut explorer = Explorer::new(scene, &source, options);
-    let ended = Session::enter()
-        .and_then(|mut session| terminal::run(&mut explorer, &mut session, &mut TerminalEvents));
-    match ended {
-        Ok(status) => ExitCode::from(status),
-        Err(e) => {
-            complain(format!("the terminal failed: {e}"));
-            ExitCode::from(INVALID)
-        }
+    if let Err(sentence) = explorer.set_out(&arguments.place.opening()) {
+        complain(sentence);
+        return MISUSED.into();
     }
+    if let Some(folder) = state_folder() {
+        explorer.keep_in(&folder, &source);
+    }
+    converse(&mut explorer)
+}
+
+/// The options with what this terminal has; where it has too little, the status to end with.
+pub(super) fn fitted(options: Options) -> Result<Options, ExitCode> {
+    let capability = Capability::detect().map_err(|unfit| {
+        complain(unfit.0);
+        ExitCode::from(INVALID)
+    })?;
+    Ok(Options {
+        depth: capability.depth,
+        glyphs: capability.glyphs,
+        ..options
+    })
+}
+
+/// Runs the explorer in the terminal; however that ends, unsaved work is kept.
+pub(super) fn converse(explorer: &mut Explorer) -> ExitCode {
+    let mut session = match Session::enter() {
+        Ok(session) => session,
+        Err(e) => return failed(&e),
+    };
+    // After a panic only the scene is looked at, which is whole between any two changes.
+    let ended = panic::catch_unwind(AssertUnwindSafe(|| terminal::run(explorer, &mut session)));
+    let kept = explorer.finish();
+    drop(session);
+    match kept {
+        Ok(Some(path)) => complain(format_args!(
+            "unsaved work is kept in {}; opening the same scene offers it",
+            path.display()
+        )),
+        Ok(None) => {}
+        Err(sentence) => complain(sentence),
+    }
+    match ended {
+        Ok(Ok(status)) => ExitCode::from(status),
+        Ok(Err(e)) => failed(&e),
+        Err(panicked) => panic::resume_unwind(panicked),
+    }
+}
+
+fn failed(error: &io::Error) -> ExitCode {
+    complain(format_args!("the terminal failed: {error}"));
+    ExitCode::from(INVALID)
+}
+
+/// Where programs of this person keep what should outlive them, as the XDG base directories have it.
+fn state_folder() -> Option<PathBuf> {
+    let folder = |name| {
+        let path = PathBuf::from(env::var_os(name)?);
+        path.is_absolute().then_some(path)
+    };
+    let state = folder("XDG_STATE_HOME").or_else(|| Some(folder("HOME")?.join(".local/state")))?;
+    Some(state.join("rayscope"))
 }

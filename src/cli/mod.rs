@@ -3,11 +3,13 @@
 mod bench;
 mod explore;
 mod grade;
+mod place;
 mod print;
 mod progress;
 mod scenes;
 mod solve;
 mod stress;
+mod tour;
 
 use std::fmt;
 use std::io::{ErrorKind, Write};
@@ -36,6 +38,7 @@ enum Command {
     Scenes(scenes::Scenes),
     Solve(solve::Solve),
     Stress(stress::Stress),
+    Tour(Box<tour::Tour>),
 }
 
 /// Runs the program with the arguments of this process.
@@ -49,6 +52,7 @@ pub fn main() -> ExitCode {
         Some(Command::Scenes(arguments)) => scenes::run(&arguments),
         Some(Command::Solve(arguments)) => solve::run(&arguments),
         Some(Command::Stress(arguments)) => stress::run(&arguments),
+        Some(Command::Tour(arguments)) => tour::run(&arguments),
     }
 }
 

@@ -60,17 +60,22 @@ impl Explorer {
     }
 
     pub(super) fn go_to_step_named(&mut self, name: &str) {
+        match self.step_named(name) {
+            Ok(at) => self.go_to_step(at),
+            Err(sentence) => self.warn(sentence),
+        }
+    }
+
+    /// The place of the step of that name or, from 1, of that number.
+    pub(super) fn step_named(&self, name: &str) -> Result<usize, String> {
         let steps = &self.picture.steps;
         let by_name = steps.iter().position(|s| s.name == name);
-        let by_number = name.parse().ok().and_then(|n: usize| n.checked_sub(1));
+        let by_number = || name.parse().ok().and_then(|n: usize| n.checked_sub(1));
         let count = steps.len();
-        if let Some(at) = by_name.or(by_number).filter(|&at| at < count) {
-            self.go_to_step(at);
-        } else {
-            self.warn(format!(
-                "step: found “{name}”, expected a step's name or 1 to {count}"
-            ));
-        }
+        by_name
+            .or_else(by_number)
+            .filter(|&at| at < count)
+            .ok_or_else(|| format!("step: found “{name}”, expected a step's name or 1 to {count}"))
     }
 
     pub(super) fn toggle_prediction(&mut self) {

@@ -6,6 +6,7 @@ pub mod bench;
 pub mod dials;
 mod errors;
 pub mod families;
+pub mod frames;
 pub mod grade;
 mod hexadecimal;
 mod machine;
