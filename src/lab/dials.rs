@@ -116,7 +116,8 @@ impl Dial {
         self.settings[2].abs()
     }
 
-    /// The first `n` of its rays at the setting 2^k.
+    /// The first `n` of its rays at the setting 2^k; at every setting they are made of the same
+    /// random numbers.
     pub fn sample(&self, seed: u64, k: i32, n: usize) -> Vec<Problem> {
         self.drawn(seed, k)
             .take(n)
@@ -134,7 +135,8 @@ impl Dial {
     }
 
     fn drawn(&self, seed: u64, k: i32) -> impl Iterator<Item = (Case, Problem)> + use<> {
-        let mut random = Random::new(seed ^ (k as u64) << 32);
+        // The same numbers at every setting: what changes is what the dial changes.
+        let mut random = Random::new(seed);
         let draw = self.draw;
         std::iter::repeat_with(move || draw(&mut random, k))
             .filter_map(|case| case.rounded().map(|problem| (case, problem)))
@@ -246,7 +248,13 @@ fn tangency(random: &mut Random, k: i32) -> Case {
 fn offset(random: &mut Random, k: i32) -> Case {
     let radius = random.uniform(0.5, 2.0);
     let distance = radius * random.uniform(2.0, 12.0);
-    let miss = radius * random.uniform(0.0, 1.5);
+    // Not so near a tangent that a method may fail without any offset.
+    let miss = loop {
+        let part = random.uniform(0.0, 1.5);
+        if !(0.99..1.01).contains(&part) {
+            break radius * part;
+        }
+    };
     let mut case = aimed(random, [0.0; 3], radius, distance, miss);
     let away = random.unit_vector();
     let far = power_of_two(k) * distance;

@@ -117,12 +117,13 @@ impl Svg {
         );
     }
 
-    /// Text on a white ground, readable across lines.
-    pub fn label(&mut self, [x, y]: [f64; 2], text: &str, color: &str, anchor: Anchor) {
-        let ground = "<g stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\">";
-        let _ = writeln!(self.body, "{ground}");
-        self.text([x, y], text, 10.0, color, anchor);
-        let _ = writeln!(self.body, "</g>");
+    /// Text on a white ground, readable across lines. (Twice, since not every program that shows SVG
+    /// knows `paint-order`.)
+    pub fn label(&mut self, at: [f64; 2], text: &str, color: &str, anchor: Anchor) {
+        self.body += "<g stroke=\"#ffffff\" stroke-width=\"3\">";
+        self.text(at, text, 10.0, "#ffffff", anchor);
+        self.body += "</g>\n";
+        self.text(at, text, 10.0, color, anchor);
     }
 
     /// Text that reads upwards, centred on its point.

@@ -82,7 +82,7 @@ pub struct Sweep {
 /// Where a method breaks down on a dial, as exponents k of the dial's value.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Breakdown {
-    /// The first setting with a wrong answer.
+    /// The first setting with a wrong answer that the tame end does not have.
     pub wrong: Option<i32>,
     /// Where theory puts it.
     pub wrong_in_theory: Option<f64>,
@@ -132,16 +132,18 @@ impl Report {
 
     /// Where the method with that place in the report breaks down on a dial.
     pub fn breakdown(&self, sweep: &Sweep, method: usize) -> Breakdown {
-        let first = |broken: fn(&Cell) -> bool| {
-            let found = sweep.steps.iter().find(|s| broken(&s.cells[method]));
+        let first = |count: fn(&Cell) -> usize| {
+            let of = |step: &Step| count(&step.cells[method]);
+            let tame = sweep.steps.first().map_or(0, of);
+            let found = sweep.steps.iter().find(|step| of(step) > tame);
             found.map(|step| step.k)
         };
         let [wrong, moved] = theory::of(sweep.dial.name, self.methods[method], self.rays);
         let in_range = |k: &f64| sweep.dial.reaches(*k);
         Breakdown {
-            wrong: first(|cell| cell.errors.wrong.total() > 0),
+            wrong: first(|cell| cell.errors.wrong.total()),
             wrong_in_theory: wrong.filter(in_range),
-            moved: first(|cell| cell.moved > 0),
+            moved: first(|cell| cell.moved),
             moved_in_theory: moved.filter(in_range),
         }
     }

@@ -18,6 +18,10 @@ const FARTHEST: f64 = 4.585;
 /// log₂ of the distance ‖o‖/r at which the spacing of binary32 at t alone is a tenth of r.
 const ROUNDING_OF_T: f64 = -SINGLE - 4.322;
 
+/// log₂ of how much less is rounded in binary64: of the operations that count, o alone, since the
+/// products of binary32 numbers are exact.
+const ONLY_O: f64 = 2.0;
+
 /// How a method gets D, which is what decides how it breaks down.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Form {
@@ -60,7 +64,7 @@ pub(super) fn of(dial: &str, method: Method, rays: usize) -> [Option<f64>; 2] {
             [side, half_pixel].map(|epsilon| Some((epsilon - SINGLE) / 2.0))
         }
         ("distance", Perpendicular) => [side, half_pixel].map(|epsilon| Some(epsilon - SINGLE)),
-        ("distance", Lagrange) => [Some(side - DOUBLE), Some(ROUNDING_OF_T)],
+        ("distance", Lagrange) => [Some(side - DOUBLE + ONLY_O), Some(ROUNDING_OF_T)],
         ("distance", Certified) => [None, Some(ROUNDING_OF_T)],
         // C = ‖o‖² − r² is off by u·r², so t by u·r up to 1/cosθ = 5 times, against height/20.
         ("altitude", Coefficients { .. } | Perpendicular) => [None, Some(SINGLE + 5.9)],
@@ -69,7 +73,7 @@ pub(super) fn of(dial: &str, method: Method, rays: usize) -> [Option<f64>; 2] {
         // far below a twentieth.
         ("tangency", Coefficients { .. }) => [Some(0.5 * (SINGLE + 5.1)), None],
         ("tangency", Perpendicular) => [Some(0.5 * (SINGLE + 3.0)), None],
-        ("tangency", Lagrange) => [Some(0.5 * (DOUBLE + 3.0)), None],
+        ("tangency", Lagrange) => [Some(0.5 * (DOUBLE - ONLY_O + 3.0)), None],
         // B² or b², or C, passes 2¹²⁸; A r² later.
         ("large" | "long", Coefficients { textbook: true }) => [Some(64.0 - FARTHEST - 1.0), None],
         ("long", Coefficients { textbook: false }) => [Some(64.0 - FARTHEST), None],
