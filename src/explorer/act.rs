@@ -146,7 +146,7 @@ impl Explorer {
             Command::SaveAs(name) => self.save_as(PathBuf::from(name)),
             Command::Method(method) => self.options.method = method,
             Command::Style(style) => self.set_style(style),
-            Command::View(view) => self.options.view = view,
+            Command::View(view) => self.set_view(view),
             Command::Panel(panel) => self.panel = panel,
             Command::Step(name) => self.go_to_step_named(&name),
             Command::At(t) => self.scrubbed = Some(t),
@@ -268,7 +268,7 @@ impl Explorer {
     }
 
     pub(super) fn turn_view(&mut self, by: usize) {
-        self.options.view = turn(&View::ALL, self.options.view, by);
+        self.set_view(turn(&View::ALL, self.options.view, by));
     }
 
     pub(super) fn turn_style(&mut self, by: usize) {
@@ -277,6 +277,18 @@ impl Explorer {
 
     pub(super) fn set_style(&mut self, style: Style) {
         self.options.style = style;
+        self.say_legend();
+    }
+
+    fn set_view(&mut self, view: View) {
+        self.options.view = view;
+        self.say_legend();
+    }
+
+    fn say_legend(&mut self) {
+        let (view, style) = (self.options.view, self.options.style);
+        let shown = view.shown_in(style).name();
+        self.say(format!("{shown}, {}: {}", style.name(), view.legend(style)));
     }
 
     pub(super) fn set_aspect(&mut self, aspect: f64) {

@@ -3,6 +3,7 @@
 //! What is measured with them, error and time, joins here later; nothing here draws.
 
 pub mod families;
+pub mod frames;
 mod random;
 
 pub use families::Family;

@@ -8,11 +8,11 @@
 //!                                       ^
 //! ```
 
-use crate::method::Precision;
 use std::cmp::Ordering;
 
-use super::caption::Caption;
+use super::caption::{Caption, rounded};
 use crate::explain::{Digits, Glyphs, Line, Role, number};
+use crate::method::Precision;
 
 /// A number in one of the two formats.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,7 +62,7 @@ impl Float {
     pub fn hexadecimal(self) -> String {
         let value = self.widened();
         if !value.is_finite() {
-            return number(value, Precision::Binary64, Digits::Full);
+            return self.decimal(true);
         }
         let fields = self.fields();
         let sign = if fields.negative() { "-" } else { "" };
@@ -342,7 +342,7 @@ fn comparison(
     let steps = (mine.rank() - theirs.rank()).unsigned_abs();
     if steps > 0 && mine.is_finite() && theirs.is_finite() {
         let about = if steps > 9999 { "about " } else { "" };
-        let count = number(steps as f64, Precision::Binary64, Digits::Significant(4));
+        let count = rounded(steps as f64, 4);
         let plural = if steps == 1 { "" } else { "s" };
         let side = match mine.rank().cmp(&theirs.rank()) {
             Ordering::Greater => "above",
@@ -381,11 +381,7 @@ fn meaning(fields: Fields) -> Caption {
         );
         caption.add("value", "=", &signed(&format!("{sign}{count} · 2^{unit}")));
     } else {
-        let significand = number(
-            fields.significand(),
-            Precision::Binary64,
-            Digits::Significant(9),
-        );
+        let significand = rounded(fields.significand(), 9);
         // k binary places are k decimal ones.
         let equals = if fields.places() <= 8 { "=" } else { "≈" };
         let product = format!("{sign}{significand} · 2^{power}");
@@ -396,11 +392,7 @@ fn meaning(fields: Fields) -> Caption {
         caption.add("significand:", "", &words);
     }
     let ulp = fields.ulp_power();
-    let distance = number(
-        2.0_f64.powi(ulp as i32),
-        Precision::Binary64,
-        Digits::Significant(4),
-    );
+    let distance = rounded(2.0_f64.powi(ulp as i32), 4);
     let words = format!("2^{ulp} ≈ {distance} to the next number");
     caption.add("ulp:", "", &signed(&words));
     caption

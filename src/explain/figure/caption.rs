@@ -106,15 +106,21 @@ pub(super) fn caption_of(section: &Section, subject: &Subject, glyphs: Glyphs) -
     caption
 }
 
+/// A number with so many digits.
+pub(super) fn rounded(value: f64, digits: usize) -> String {
+    // + 0 takes the sign off a zero: "−0" says nothing on a figure.
+    let value = value + 0.0;
+    number(value, Precision::Binary64, Digits::Significant(digits))
+}
+
 /// A number with six digits.
 pub(super) fn show(value: f64) -> String {
-    // + 0 takes the sign off a zero: "−0" says nothing on a figure.
-    number(value + 0.0, Precision::Binary64, Digits::Significant(6))
+    rounded(value, 6)
 }
 
 /// The smaller root, the foot and the larger root in t, with as many digits as tell them apart.
 pub(super) fn times(section: &Section) -> [String; 3] {
-    let [x, y, z] = [section.near, section.foot, section.far].map(|s| s / section.speed);
+    let [x, y, z] = [section.near, section.foot, section.far].map(|s| s / section.speed + 0.0);
     let written = |digits| [x, y, z].map(|v| number(v, Precision::Binary64, digits));
     let differ = |texts: &[String; 3]| {
         (x == y || texts[0] != texts[1])

@@ -17,8 +17,8 @@ pub(super) fn case(o: [f32; 3], d: [f32; 3], c: [f32; 3], r: f32) -> (Subject, R
         name: None,
         why: Why::NearestHit,
         coefficients: Method::Textbook.coefficients(&ray, &sphere),
-        solution: Truth::new(&ray, &sphere).solution(),
         trace: Method::Textbook.trace(&ray, &sphere),
+        solution: Truth::new(&ray, &sphere).solution(),
         sight: None,
     };
     (subject, ray)

@@ -10,13 +10,12 @@
 
 use super::axis::{Axis, Frame, Place, Stretch};
 use super::canvas::{Canvas, Dash, Ink};
-use super::caption::{Caption, caption_of, caption_room, show, times};
+use super::caption::{Caption, caption_of, caption_room, rounded, show, times};
 use super::mark::{Mark, Sign};
 use super::section::{Anchor, Section, Spot};
-use crate::explain::{Digits, Glyphs, Line, Role, Subject, number};
+use crate::explain::{Glyphs, Line, Role, Subject};
 use crate::geometry::Ray;
 use crate::method::Class;
-use crate::method::Precision;
 
 /// The curve f(t) with its roots and its vertex, t = 0, and the value at `t`.
 ///
@@ -253,33 +252,29 @@ impl Plot {
     /// The points that have names; an arrow for one that lies above or below the figure.
     fn marks(&self, t: f64) -> Vec<Mark> {
         let section = &self.section;
-        let bottom = (self.canvas.size().1 - 1.0).max(0.0);
+        let (width, height) = self.canvas.size();
+        let [right, bottom] = [width, height].map(|edge| (edge - 1.0).max(0.0));
         let mark = |name, spot, sign, ink| {
-            let (Place::On(x) | Place::Break(x)) = self.view.axis.place(section, spot) else {
-                return None;
-            };
-            let f = match self.view.axis.on(section, spot) {
+            let on = self.view.axis.on(section, spot);
+            let f = match on {
                 Some((piece, _)) => section.power(piece.anchor, section.offset(spot, piece.anchor)),
                 None => section.value(section.position(spot)),
             };
-            let height = self.view.height(f);
-            let on_the_axis = spot == Spot::At(Anchor::Near) || spot == Spot::At(Anchor::Far);
-            let sign = if height < 0.0 {
-                Sign::Above
-            } else if height > bottom {
-                Sign::Below
-            } else if self.view.axis.on(section, spot).is_none() && !on_the_axis {
-                return None;
-            } else {
-                sign
+            let y = self.view.height(f);
+            let (x, sign) = match self.view.axis.place(section, spot) {
+                Place::Before => (0.0, Sign::Before),
+                Place::After => (right, Sign::After),
+                Place::On(x) | Place::Break(x) if y < 0.0 => (x, Sign::Above),
+                Place::On(x) | Place::Break(x) if y > bottom => (x, Sign::Below),
+                Place::On(x) | Place::Break(x) => (x, sign),
             };
-            Some(Mark {
+            Mark {
                 name,
-                dot: (x, height.clamp(0.0, bottom)),
+                dot: (x, y.clamp(0.0, bottom)),
                 at: (section.position(spot), f),
                 sign,
                 ink,
-            })
+            }
         };
         let root = |name, anchor| {
             let seen = section.visible() == Some(anchor);
@@ -301,7 +296,7 @@ impl Plot {
             let along = Spot::Along(t * section.speed);
             marks.push(mark("p", along, Sign::Moved, Ink::Scrub));
         }
-        marks.into_iter().flatten().collect()
+        marks
     }
 
     /// The names of the axes, and numbers at the points where they are read off.
@@ -336,17 +331,22 @@ impl Plot {
         if width < WIDE {
             return;
         }
-        for anchor in [Anchor::Start, Anchor::Foot] {
+        let [start, foot] = [Anchor::Start, Anchor::Foot].map(|a| self.place(Spot::At(a)));
+        let beside = start.zip(foot).is_some_and(|(x, y)| (x - y).abs() < CLOSE);
+        for (x, anchor) in [(start, Anchor::Start), (foot, Anchor::Foot)] {
             let f = self.section.power(anchor, 0.0);
-            let x = self.place(Spot::At(anchor));
             let cell = x.and_then(|x| self.canvas.cell_of((x, self.view.height(f))));
-            if let (Some(cell), true) = (cell, f != 0.0) {
-                let text = number(f, Precision::Binary64, Digits::Significant(4));
+            if let (Some(cell), false, false) = (cell, f == 0.0, beside) {
+                let text = rounded(f, 4);
                 self.canvas.label(cell, &text, Ink::Note, false);
             }
         }
     }
 }
+
+/// Points closer than this, in dots, have their values in the caption alone: beside them it would
+/// not be clear which is whose.
+const CLOSE: f64 = 20.0;
 
 /// From this width on, in dots, values of f stand beside their points.
 const WIDE: f64 = 80.0;
@@ -393,13 +393,15 @@ fn polynomial(section: &Section) -> (&'static str, String) {
         (-2.0 * section.foot * speed, "t"),
         (c, ""),
     ] {
-        let digits = number(x.abs(), Precision::Binary64, Digits::Significant(6));
-        // What is off in the last bits alone was rounded here, and is no news.
-        if (digits.parse::<f64>().unwrap_or(f64::NAN) / x.abs() - 1.0).abs() > 1e-14 {
-            sign = "≈";
-        }
+        let digits = rounded(x.abs(), 6);
         if x == 0.0 {
             continue;
+        }
+        // What is off in the last bits alone was rounded here, and is no news.
+        let shown: f64 = digits.replace('−', "-").parse().unwrap_or(f64::NAN);
+        let off = (shown / x.abs() - 1.0).abs();
+        if off.is_nan() || off > 1e-14 {
+            sign = "≈";
         }
         if !text.is_empty() {
             text += if x < 0.0 { " − " } else { " + " };
@@ -408,6 +410,9 @@ fn polynomial(section: &Section) -> (&'static str, String) {
         }
         if digits != "1" || power.is_empty() {
             text += &digits;
+        }
+        if digits.contains('e') && !power.is_empty() {
+            text += "·";
         }
         text += power;
     }

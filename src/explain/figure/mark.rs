@@ -34,6 +34,10 @@ pub(super) enum Sign {
     Above,
     /// A point below the figure.
     Below,
+    /// A point to the left of the figure.
+    Before,
+    /// A point to the right of the figure.
+    After,
 }
 
 impl Sign {
@@ -47,6 +51,8 @@ impl Sign {
             Self::Moved => ['◆', '%'],
             Self::Above => ['↑', '^'],
             Self::Below => ['↓', 'v'],
+            Self::Before => ['←', '<'],
+            Self::After => ['→', '>'],
         };
         match glyphs {
             Glyphs::Unicode => unicode,

@@ -11,14 +11,13 @@
 
 use super::axis::{Piece, Place};
 use super::canvas::{Canvas, Dash, Dot, Ink};
-use super::caption::{Caption, caption_of, caption_room, show, times};
+use super::caption::{Caption, caption_of, caption_room, rounded, show, times};
 use super::mark::{Mark, Sign};
 use super::section::{Anchor, Section, Spot};
 use super::view::View;
-use crate::explain::{Digits, Glyphs, Line, Role, Subject, number, vector};
+use crate::explain::{Digits, Glyphs, Line, Role, Subject, vector};
 use crate::geometry::Ray;
 use crate::method::Class;
-use crate::method::Precision;
 
 /// The plane through `ray` and the centre of the subject's sphere, with the point p = t·d + p0.
 ///
@@ -163,7 +162,7 @@ impl Drawing {
         for (before, after) in self.view.axis.breaks() {
             let middle = f64::midpoint(before.right, after.left);
             let length = self.view.axis.left_out(&before, &after, &self.section);
-            let text = number(length, Precision::Binary64, Digits::Significant(3));
+            let text = rounded(length, 3);
             if let Some(cell) = self.canvas.cell_of((middle, self.view.base)) {
                 self.canvas.label(cell, &text, Ink::Note, true);
             }
@@ -250,17 +249,20 @@ impl Drawing {
     /// The points that have names.
     fn marks(&self, t: f64) -> Vec<Mark> {
         let section = &self.section;
+        let (width, _) = self.canvas.size();
         let mark = |name, spot, height: f64, sign, ink| {
-            let (Place::On(x) | Place::Break(x)) = self.view.axis.place(section, spot) else {
-                return None;
+            let (x, sign) = match self.view.axis.place(section, spot) {
+                Place::On(x) | Place::Break(x) => (x, sign),
+                Place::Before => (0.0, Sign::Before),
+                Place::After => ((width - 1.0).max(0.0), Sign::After),
             };
-            Some(Mark {
+            Mark {
                 name,
                 dot: (x, self.view.base - height * self.view.up),
                 at: (section.position(spot), height),
                 sign,
                 ink,
-            })
+            }
         };
         let root = |name, anchor| {
             let seen = section.visible() == Some(anchor);
@@ -273,7 +275,7 @@ impl Drawing {
         match section.class {
             Class::Tangent => marks.push(root("B = B′", Anchor::Near)),
             Class::Secant => marks.extend([root("B", Anchor::Near), root("B′", Anchor::Far)]),
-            Class::Miss | Class::Nan => marks.push(self.touching_mark()),
+            Class::Miss | Class::Nan => marks.extend(self.touching_mark()),
         }
         if section.class != Class::Tangent {
             marks.push(point("q", foot, 0.0, Sign::Cross));
@@ -283,7 +285,7 @@ impl Drawing {
             let along = Spot::Along(t * section.speed);
             marks.push(mark("p", along, 0.0, Sign::Moved, Ink::Scrub));
         }
-        marks.into_iter().flatten().collect()
+        marks
     }
 
     /// Where the tangent from the foot touches.
@@ -335,10 +337,7 @@ impl Drawing {
 
     /// The whole circle and the line in true proportion, where the figure shows a part of it.
     fn overview(&mut self) {
-        let Section {
-            radius, distance, ..
-        } = self.section;
-        let across = 2.0 * radius * self.view.up;
+        let across = 2.0 * self.section.radius * self.view.up;
         let (width, height) = self.canvas.size();
         if across <= width.max(height) && self.view.stretch() < 2.0 {
             return;
@@ -352,26 +351,33 @@ impl Drawing {
         let Some((col, row)) = self.canvas.blank_room(cols + 2, rows + 2) else {
             return;
         };
-        let mut small = Canvas::new(cols, rows, self.canvas.glyphs());
-        let (width, height) = small.size();
-        let middle = (width / 2.0, height / 2.0 + 0.5);
-        let scale = (height / 2.0 - 2.5) / radius;
-        let steps = 96;
-        for i in 0..steps {
-            let angle = f64::from(i) / f64::from(steps) * std::f64::consts::TAU;
-            let (x, y) = (angle.cos() * radius * scale, angle.sin() * radius * scale);
-            small.plot((middle.0 + x, middle.1 + y), Ink::Circle);
-        }
-        let line = middle.1 - distance * scale;
-        small.line((0.0, line), (width, line), Ink::Ray, Dash::SOLID);
-        if let Some((col, row)) = self.zoomed_root().and_then(|root| {
-            let along = self.section.beyond_foot(root, 0.0) * scale;
-            small.cell_of((middle.0 + along, line))
-        }) {
-            small.put(col, row, Sign::Unseen.glyph(small.glyphs()), Ink::Root);
-        }
+        let small = self.miniature(cols, rows);
         self.canvas.write(col + 1, row + 1, title, Ink::Note);
         self.canvas.paste((col + 1, row + 2), &small);
+    }
+
+    /// Circle, line, and the root that the figure is about, on a sheet of their own.
+    fn miniature(&self, cols: usize, rows: usize) -> Canvas {
+        let mut sheet = Canvas::new(cols, rows, self.canvas.glyphs());
+        let (width, height) = sheet.size();
+        let center = (width / 2.0, height / 2.0 + 0.5);
+        let radius = height / 2.0 - 2.5;
+        for degrees in (2..360).step_by(4) {
+            let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
+            let dot = (center.0 + radius * cos, center.1 + radius * sin);
+            sheet.plot(dot, Ink::Circle);
+        }
+        let scale = radius / self.section.radius;
+        let line = center.1 - self.section.distance * scale;
+        sheet.line((0.0, line), (width, line), Ink::Ray, Dash::SOLID);
+        if let Some(root) = self.zoomed_root() {
+            let along = self.section.beyond_foot(root, 0.0) * scale;
+            if let Some((col, row)) = sheet.cell_of((center.0 + along, line)) {
+                let sign = Sign::Unseen.glyph(sheet.glyphs());
+                sheet.put(col, row, sign, Ink::Root);
+            }
+        }
+        sheet
     }
 }
 
@@ -437,14 +443,14 @@ fn caption(
     let altitude = section.altitude();
     if altitude.abs() < 0.02 * section.radius && altitude != 0.0 {
         let side = if altitude > 0.0 { "above" } else { "below" };
-        let altitude = number(altitude.abs(), Precision::Binary64, Digits::Significant(3));
+        let altitude = rounded(altitude.abs(), 3);
         caption.add("p0", &altitude, &format!("{side} the surface"));
     }
     if section.radius > 0.0 && section.radius * view.axis.scale < 1.0 {
         caption.say(Role::Faint, "the circle is smaller than a dot");
     }
     if view.stretch() > 1.5 {
-        let times = number(view.stretch(), Precision::Binary64, Digits::Significant(2));
+        let times = rounded(view.stretch(), 2);
         caption.say(
             Role::Faint,
             &format!("heights drawn {times} times too tall"),
@@ -487,7 +493,7 @@ fn distance(section: &Section) -> String {
     if q == r {
         let depth = section.depth();
         let side = if depth > 0.0 { "−" } else { "+" };
-        let depth = number(depth.abs(), Precision::Binary64, Digits::Significant(3));
+        let depth = rounded(depth.abs(), 3);
         return format!("|q−c| = r {side} {depth}, r = {r}");
     }
     format!("|q−c| = {q} {sign} r = {r}")

@@ -130,19 +130,9 @@ impl View {
         stretch: Stretch,
         lowest: f64,
     ) -> Self {
-        let lay = |scale| Axis::lay(frame, before, stretch, after, scale);
-        let axis = lay(f64::INFINITY);
-        let samples = (0..=32).map(|i| {
-            let part = f64::from(i) / 32.0;
-            let offset = stretch.from + part * (stretch.to - stretch.from);
-            section.upper(stretch.anchor, offset)
-        });
-        let heights: Option<Vec<f64>> = samples.collect();
-        let range = heights.map(|heights| {
-            let bottom = heights.iter().copied().fold(lowest.min(0.0), f64::min);
-            let top = heights.into_iter().fold(0.0, f64::max);
-            (bottom, top)
-        });
+        let axis = Axis::lay(frame, before, stretch, after, f64::INFINITY);
+        let range = heights(section, stretch)
+            .map(|(bottom, top)| (bottom.min(lowest).min(0.0), top.max(0.0)));
         let room = frame.height();
         match range {
             Some((bottom, top)) if (top - bottom) * axis.scale < room * FLAT && top > bottom => {
@@ -191,6 +181,23 @@ impl View {
             && seen(section.near == 0.0, start, near)
             && seen(section.far == 0.0, start, far)
     }
+}
+
+/// The least and the greatest height of the upper half circle over a stretch of the line; none if
+/// the stretch reaches beyond the circle.
+fn heights(section: &Section, stretch: Stretch) -> Option<(f64, f64)> {
+    const STEPS: u32 = 32;
+    let length = stretch.to - stretch.from;
+    let height = |i| {
+        let part = f64::from(i) / f64::from(STEPS);
+        section.upper(stretch.anchor, stretch.from + part * length)
+    };
+    let all: Option<Vec<f64>> = (0..=STEPS).map(height).collect();
+    let all = all?.into_iter();
+    Some((
+        all.clone().fold(f64::INFINITY, f64::min),
+        all.fold(f64::NEG_INFINITY, f64::max),
+    ))
 }
 
 /// How small the circle may become, against the size it could have alone, to show p0 without a break.
