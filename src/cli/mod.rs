@@ -37,8 +37,8 @@ enum Command {
     Print(print::Print),
     Scenes(scenes::Scenes),
     Solve(solve::Solve),
-    Tour(Box<tour::Tour>),
     Stress(stress::Stress),
+    Tour(Box<tour::Tour>),
 }
 
 /// Runs the program with the arguments of this process.
@@ -51,8 +51,8 @@ pub fn main() -> ExitCode {
         Some(Command::Print(arguments)) => print::run(&arguments),
         Some(Command::Scenes(arguments)) => scenes::run(&arguments),
         Some(Command::Solve(arguments)) => solve::run(&arguments),
-        Some(Command::Tour(arguments)) => tour::run(&arguments),
         Some(Command::Stress(arguments)) => stress::run(&arguments),
+        Some(Command::Tour(arguments)) => tour::run(&arguments),
     }
 }
 

@@ -34,11 +34,11 @@ pub fn pixel_errors(scene: &Scene, rays: &Rays, method: Method) -> Vec<PixelErro
     });
     let pixels = (0..rays.size.height).flat_map(|y| (0..rays.size.width).map(move |x| (x, y)));
     pixels
-        .map(|(x, y)| pixel_error(scene, &found, &truth, x, y))
+        .map(|(x, y)| pixel_error(scene, [&found, &truth], x, y))
         .collect()
 }
 
-fn pixel_error(scene: &Scene, found: &Frame, truth: &Frame, x: u32, y: u32) -> PixelError {
+fn pixel_error(scene: &Scene, [found, truth]: [&Frame; 2], x: u32, y: u32) -> PixelError {
     match (found.hit(scene, x, y), truth.hit(scene, x, y)) {
         _ if found.contact(x, y) == Contact::Nan => PixelError::Wrong(Fault::NotFinite),
         (None, None) => PixelError::Bits(0.0),

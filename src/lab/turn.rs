@@ -85,9 +85,7 @@ mod tests {
         let mut frame = Frame::new();
         frame.render(scene, &rays, Method::Exact, View::Class);
         let pixels = (0..20).flat_map(|y| (0..40).map(move |x| (x, y)));
-        pixels
-            .map(|(x, y)| frame.hit(scene, x, y).map(|hit| hit.body))
-            .collect()
+        pixels.map(|(x, y)| frame.seen(x, y)).collect()
     }
 
     #[test]

@@ -4,7 +4,7 @@ mod data;
 pub(crate) mod text;
 
 pub use data::{csv, json};
-pub use text::{error_table, markdown, table};
+pub use text::{error_overview, error_table, markdown, table};
 
 use crate::lab::Problem;
 use crate::lab::errors::{Census, Checksum, Errors};

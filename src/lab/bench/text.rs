@@ -218,18 +218,74 @@ pub(crate) fn wrapped(text: &str) -> String {
     out + "\n"
 }
 
-/// The report in Markdown: for each set a table of errors, which are the same everywhere, and one
-/// of times, which are not.
+/// The report in Markdown: two overviews; for each set a table of errors, which are the same
+/// everywhere, and one of times, which are not.
 pub fn markdown(report: &Report, machine: &Machine) -> String {
-    let mut out = format!("```text\n{}```\n", header(report, machine));
+    let mut out = format!("```text\n{}```\n\n", header(report, machine));
+    out += &error_overview(report);
+    out.push('\n');
+    out += &time_overview(report);
     for chapter in &report.chapters {
         let _ = write!(out, "\n### {}\n\n{}\n\n", chapter.name, chapter.about);
         out += &error_table(chapter);
         out.push('\n');
         out += &time_table(chapter);
+        out.push('\n');
+        for row in &chapter.rows {
+            if let Some(worst) = &row.errors.worst {
+                let input = numbers(&worst.problem).map(hexadecimal).join(" ");
+                let _ = writeln!(out, "* `{}`, largest at `{input}`", row.method);
+            }
+        }
     }
     let _ = write!(out, "\n```text\n{}```\n", footer(report));
     out
+}
+
+/// A Markdown table with a line for each set and a column for each method.
+fn overview(report: &Report, cell: impl Fn(&Chapter, &Row) -> String) -> String {
+    let Some(first) = report.chapters.first() else {
+        return String::new();
+    };
+    let mut out = String::from("| rays |");
+    for row in &first.rows {
+        let _ = write!(out, " `{}` |", row.method);
+    }
+    let _ = writeln!(out, "\n|---|{}", "--:|".repeat(first.rows.len()));
+    for chapter in &report.chapters {
+        let _ = write!(out, "| {} |", chapter.name);
+        for row in &chapter.rows {
+            let _ = write!(out, " {} |", cell(chapter, row));
+        }
+        out.push('\n');
+    }
+    out
+}
+
+/// Wrong answers and the 99th percentile of the error in ulp, set by set.
+pub fn error_overview(report: &Report) -> String {
+    overview(report, |chapter, row| {
+        let errors = &row.errors;
+        let p99 = match errors.judged {
+            0 => "–".to_owned(),
+            _ => brief(errors.ulp.p99),
+        };
+        match errors.wrong.total() {
+            0 => p99,
+            wrong => format!("**{}**, {p99}", percent(wrong, chapter.census.rays)),
+        }
+    })
+}
+
+/// The median time of one solve among many, in ns, and how many times that of `textbook` it is.
+fn time_overview(report: &Report) -> String {
+    overview(report, |_, row| {
+        let times = &row.times;
+        format!(
+            "{:.0} ({:.2})",
+            times.throughput.median, times.throughput_ratio
+        )
+    })
 }
 
 /// The error columns of one set as a Markdown table.
@@ -239,9 +295,9 @@ pub fn error_table(chapter: &Chapter) -> String {
         let of = chapter.census.denominator(fault);
         let _ = write!(out, " {} of {of} |", fault.name());
     }
-    out += " p50 ulp | p99 | p99.9 | largest | its input: p0, d, c, r |\n|---|";
+    out += " p50 ulp | p99 | p99.9 | largest |\n|---|";
     out += &"--:|".repeat(8);
-    out += "---|\n";
+    out.push('\n');
     for row in &chapter.rows {
         let _ = write!(out, "| `{}` |", row.method);
         for fault in Fault::ALL {
@@ -250,14 +306,9 @@ pub fn error_table(chapter: &Chapter) -> String {
         for value in percentiles(&row.errors) {
             let _ = write!(out, " {} |", brief(value));
         }
-        let input = row.errors.worst.map(|worst| input(&worst));
-        let _ = writeln!(out, " {} |", input.unwrap_or_else(|| "–".into()));
+        out.push('\n');
     }
     out
-}
-
-fn input(worst: &Worst) -> String {
-    format!("`{}`", numbers(&worst.problem).map(hexadecimal).join(" "))
 }
 
 fn time_table(chapter: &Chapter) -> String {

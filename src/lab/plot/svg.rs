@@ -117,6 +117,14 @@ impl Svg {
         );
     }
 
+    /// Text on a white ground, readable across lines.
+    pub fn label(&mut self, [x, y]: [f64; 2], text: &str, color: &str, anchor: Anchor) {
+        let ground = "<g stroke=\"#ffffff\" stroke-width=\"3\" paint-order=\"stroke\">";
+        let _ = writeln!(self.body, "{ground}");
+        self.text([x, y], text, 10.0, color, anchor);
+        let _ = writeln!(self.body, "</g>");
+    }
+
     /// Text that reads upwards, centred on its point.
     pub fn text_upwards(&mut self, [x, y]: [f64; 2], text: &str, size: f64, color: &str) {
         let _ = writeln!(

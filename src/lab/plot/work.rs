@@ -9,7 +9,7 @@ use crate::lab::machine::Machine;
 const COLUMNS: usize = 3;
 const PANEL: [f64; 2] = [320.0, 170.0];
 /// Room around a panel: left and right together, above and below together.
-const GAP: [f64; 2] = [62.0, 52.0];
+const GAP: [f64; 2] = [72.0, 52.0];
 const LEFT: f64 = 58.0;
 const TOP: f64 = 96.0;
 
@@ -140,7 +140,7 @@ fn pareto_line(svg: &mut Svg, panel: &Panel, chapter: &Chapter) {
         .collect();
     best.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     if best.len() > 1 {
-        svg.polyline(&best, Stroke::solid("#bbbbbb", 5.0));
+        svg.polyline(&best, Stroke::solid("#d0d0d0", 5.0));
     }
 }
 
@@ -169,7 +169,7 @@ fn labels(svg: &mut Svg, panel: &Panel, chapter: &Chapter) {
         };
         let (color, _) = look(row.method);
         let edge = if right_half { left + LABEL[0] } else { left };
-        svg.text([edge, at[1] + 3.5], &wrong, 10.0, color, anchor);
+        svg.label([edge, at[1] + 3.5], &wrong, color, anchor);
     }
 }
 

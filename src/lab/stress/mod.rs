@@ -8,7 +8,7 @@ mod theory;
 
 pub use data::{csv, json};
 pub use invariance::Check;
-pub use text::{markdown, summary_table, table};
+pub use text::{check_table, markdown, summary_table, sweep_table, table};
 pub use theory::AGREEMENT;
 
 use super::dials::Dial;

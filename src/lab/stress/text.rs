@@ -306,24 +306,35 @@ pub fn check_table(report: &Report) -> String {
 }
 
 /// The settings of one dial as a Markdown table: wrong answers in per cent, bits lost (median/worst),
-/// worst blame.
+/// blame (median/worst).
 pub fn sweep_table(report: &Report, sweep: &Sweep) -> String {
-    let mut out = format!("| {} |", sweep.dial.quantity.replace('|', "\\|"));
+    let mut out = format!("| {} |", sweep.dial.quantity);
     for method in &report.methods {
-        let _ = write!(out, " `{method}` % wrong, bits | blame |");
+        let _ = write!(out, " `{method}` |");
     }
-    let _ = writeln!(out, "\n|--:|{}", "--:|--:|".repeat(report.methods.len()));
+    let _ = writeln!(out, "\n|--:|{}", "--:|".repeat(report.methods.len()));
     for step in chosen(sweep) {
         let _ = write!(out, "| 2^{} |", step.k);
         for cell in &step.cells {
-            let _ = write!(
-                out,
-                " {} | {} |",
-                wrong_and_bits(cell, step.census.rays),
-                blame(cell, 0)
-            );
+            let _ = write!(out, " {} |", in_words(cell, step.census.rays));
         }
         out.push('\n');
     }
     out
+}
+
+fn in_words(cell: &Cell, rays: usize) -> String {
+    let wrong = match cell.errors.wrong.total() {
+        0 => String::new(),
+        wrong => format!("**{} %**", in_percent(wrong, rays)),
+    };
+    let bits = cell
+        .bits_median()
+        .zip(cell.bits_worst())
+        .map(|(median, worst)| format!("{median:.0}/{worst:.0} bits, blame {}", blame(cell, 0)));
+    match (wrong.is_empty(), bits) {
+        (true, bits) => bits.unwrap_or_default(),
+        (false, Some(bits)) => format!("{wrong}, {bits}"),
+        (false, None) => wrong,
+    }
 }
