@@ -13,7 +13,7 @@ use super::{INVALID, MISUSED, aspect, choice, complain};
 use crate::explorer::{Explorer, Options};
 use crate::method::Method;
 use crate::render::{Style, View};
-use crate::scene::Scene;
+use crate::scene::{Scene, Source};
 use crate::terminal::{self, Capability, Session};
 
 /// How the explorer opens.
@@ -45,42 +45,44 @@ pub(super) struct Explore {
 
 /// Opens the explorer and ends with the exit status that the person left it with.
 pub(super) fn run(arguments: &Explore) -> ExitCode {
-    let (scene, source) = match Scene::open(&arguments.scene) {
-        Ok(opened) => opened,
-        Err(e) => {
-            complain(e);
-            return ExitCode::from(INVALID);
+    match opened(arguments, fitted) {
+        Ok((mut explorer, source)) => {
+            if let Some(folder) = state_folder() {
+                explorer.keep_in(&folder, &source);
+            }
+            converse(&mut explorer)
         }
-    };
+        Err((status, sentence)) => {
+            complain(sentence);
+            status.into()
+        }
+    }
+}
+
+/// The explorer as it is asked for, its options made to `fit` the terminal; else an exit status and
+/// the reason.
+pub(super) fn opened(
+    arguments: &Explore,
+    fit: impl FnOnce(Options) -> Result<Options, (u8, String)>,
+) -> Result<(Explorer, Source), (u8, String)> {
+    let (scene, source) = Scene::open(&arguments.scene).map_err(|e| (INVALID, e.to_string()))?;
     let defaults = Options::default();
-    let wanted = Options {
+    let options = fit(Options {
         method: arguments.method,
         style: arguments.style.unwrap_or(defaults.style),
         view: arguments.view.unwrap_or(defaults.view),
         aspect: arguments.aspect,
         ..defaults
-    };
-    let options = match fitted(wanted) {
-        Ok(options) => options,
-        Err(status) => return status,
-    };
+    })?;
     let mut explorer = Explorer::new(scene, &source, options);
-    if let Err(sentence) = explorer.set_out(&arguments.place.opening()) {
-        complain(sentence);
-        return MISUSED.into();
-    }
-    if let Some(folder) = state_folder() {
-        explorer.keep_in(&folder, &source);
-    }
-    converse(&mut explorer)
+    let opening = arguments.place.opening();
+    explorer.set_out(&opening).map_err(|e| (MISUSED, e))?;
+    Ok((explorer, source))
 }
 
-/// The options with what this terminal has; where it has too little, the status to end with.
-pub(super) fn fitted(options: Options) -> Result<Options, ExitCode> {
-    let capability = Capability::detect().map_err(|unfit| {
-        complain(unfit.0);
-        ExitCode::from(INVALID)
-    })?;
+/// The options with what this terminal has; where it has too little, an exit status and the reason.
+pub(super) fn fitted(options: Options) -> Result<Options, (u8, String)> {
+    let capability = Capability::detect().map_err(|unfit| (INVALID, unfit.0.to_owned()))?;
     Ok(Options {
         depth: capability.depth,
         glyphs: capability.glyphs,

@@ -52,46 +52,50 @@ pub(super) struct Tour {
 
 /// Opens the tour, or lists its chapters.
 pub(super) fn run(arguments: &Tour) -> ExitCode {
-    let (chapters, first) = match chapters(&arguments.chapter) {
-        Ok(found) => found,
-        Err(sentence) => {
-            complain(sentence);
-            return INVALID.into();
-        }
-    };
     if arguments.list {
-        return write_out(&list(&chapters));
+        return match chapters(&arguments.chapter) {
+            Ok((chapters, _)) => write_out(&list(&chapters)),
+            Err(sentence) => {
+                complain(sentence);
+                INVALID.into()
+            }
+        };
     }
-    let pages = chapters[first].pages.len();
-    if !(1..=pages).contains(&arguments.page) {
-        let page = arguments.page;
-        complain(format_args!(
-            "--page {page}: expected a page from 1 to {pages}"
-        ));
-        return MISUSED.into();
+    match opened(arguments, explore::fitted) {
+        Ok(mut explorer) => explore::converse(&mut explorer),
+        Err((status, sentence)) => {
+            complain(sentence);
+            status.into()
+        }
     }
-    let defaults = Options {
+}
+
+/// The explorer on the page that is asked for; else an exit status and the reason.
+pub(super) fn opened(
+    arguments: &Tour,
+    fit: impl FnOnce(Options) -> Result<Options, (u8, String)>,
+) -> Result<Explorer, (u8, String)> {
+    let (chapters, at) = chapters(&arguments.chapter).map_err(|e| (INVALID, e))?;
+    let (page, pages) = (arguments.page, chapters[at].pages.len());
+    if !(1..=pages).contains(&page) {
+        let sentence = format!("--page {page}: expected a page from 1 to {pages}");
+        return Err((MISUSED, sentence));
+    }
+    let options = fit(Options {
         aspect: arguments.aspect,
         ..Options::default()
-    };
-    let options = match explore::fitted(defaults) {
-        Ok(options) => options,
-        Err(status) => return status,
-    };
+    })?;
     let own = Builtin::default();
     let mut explorer = Explorer::new(own.scene(), &Source::Builtin(own), options);
-    explorer.start_tour(chapters, first, arguments.page - 1);
+    explorer.start_tour(chapters, at, page - 1);
     let opening = Opening {
         method: arguments.method,
         style: arguments.style,
         view: arguments.view,
         ..arguments.place.opening()
     };
-    if let Err(sentence) = explorer.set_out(&opening) {
-        complain(sentence);
-        return MISUSED.into();
-    }
-    explore::converse(&mut explorer)
+    explorer.set_out(&opening).map_err(|e| (MISUSED, e))?;
+    Ok(explorer)
 }
 
 /// All chapters, and the place of the one that is asked for.

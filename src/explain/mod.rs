@@ -1,6 +1,6 @@
 //! What one pixel found, in numbers and words: the side panel without a terminal.
 //!
-//! A [`Reading`] is everything that the panel shows for the ray of one pixel. [`panel`] lays it
+//! A [`Reading`] is everything that the panel shows for the ray of one pixel. [`lines`] lays it
 //! out as lines of text with roles; the explorer colours them, `print --pixel` writes them as
 //! they are.
 

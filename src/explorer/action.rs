@@ -67,7 +67,7 @@ macro_rules! actions {
                 match self { $( Self::$variant => $name, )* }
             }
 
-            /// The keys that do it, as [`Key::parse`] reads them.
+            /// The keys that do it, as `Key::parse` reads them.
             pub const fn keys(self) -> &'static [&'static str] {
                 match self { $( Self::$variant => &[$($key),*], )* }
             }

@@ -102,9 +102,7 @@ impl Explorer {
         let mut flag = |name: &str, value: String| words.extend([format!("--{name}"), value]);
         flag("method", method.name().into());
         flag("style", style.name().into());
-        if view != View::default() {
-            flag("view", view.name().into());
-        }
+        flag("view", view.name().into());
         let (x, y) = self.cursor;
         flag("cursor", format!("{x},{y}"));
         if base.pixels.is_none() {
@@ -121,8 +119,8 @@ impl Explorer {
             let number = (self.step_at + 1).to_string();
             flag("step", if plain { step.name.clone() } else { number });
         }
-        if let Some(t) = self.scrubbed {
-            flag("t", t.to_string());
+        if matches!(self.panel, Panel::Slice | Panel::Curve) {
+            flag("t", self.moving_t().to_string());
         }
         if self.panel == Panel::Compare {
             flag("compare", self.other_method().name().into());

@@ -7,7 +7,7 @@ use super::{Cell, Check, Inputs, Report, Step, Sweep, bits_lost, invariance};
 use crate::lab::bench::text::wrapped;
 use crate::lab::hexadecimal::{hexadecimal, numbers};
 
-/// The report as tables of 80 columns: of each dial at most [`ROWS`] settings, the summary last.
+/// The report as tables of 80 columns: of each dial at most `ROWS` settings, the summary last.
 pub fn table(report: &Report) -> String {
     let mut out = wrapped(&format!(
         "rayscope {} stress, seed {}, {} rays a setting, checksum of all answers {}",
