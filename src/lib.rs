@@ -7,7 +7,7 @@
 //! * [`method`]: the quadratic, and the ways to evaluate it
 //! * [`scene`]: spheres, camera, light; scene files; the built-in scenes
 //! * [`render`]: rays → nearest hits → shade → glyphs: an image of cells
-//! * [`lab`]: families of rays to hold the methods against
+//! * [`lab`]: families of rays; the error, cost and stability of the methods on them
 //! * [`explain`]: what one pixel found, in numbers and words
 //! * [`explorer`]: state, actions, update, and the screen as cells
 //! * [`terminal`]: enter, leave, restore; the loop between events and the screen

@@ -4,7 +4,10 @@ use std::process::{Command, Output, Stdio};
 
 fn rayscope(arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_rayscope"));
-    command.args(arguments).env_remove("NO_COLOR");
+    command
+        .args(arguments)
+        .env_remove("NO_COLOR")
+        .env("LC_ALL", "C");
     command
 }
 
@@ -136,4 +139,47 @@ fn a_reader_that_leaves_ends_it_quietly() {
     let output = child.wait_with_output().expect("the program ends");
     assert_eq!(output.status.code(), Some(0));
     assert!(output.stderr.is_empty(), "{output:?}");
+}
+
+#[test]
+fn the_steps_of_a_pixel_are_the_whole_derivation() {
+    let pixel = ["print", "seed", "--pixel", "20,20", "--method", "textbook"];
+    let text = text(&[&pixel[..], &["--steps"]].concat());
+    assert!(text.starts_with("ray at (20, 20) of 40 by 40 pixels, method textbook\n"));
+    for paragraph in [
+        "1. pixel\n",
+        "    A = d*d\n    = 0^2 + 0^2 + 1^2\n    = 1\n    let a = ",
+        "    disc = B^2 - 4AC\n    = 1600 - 1200\n    = 400\n",
+        "    = hit: the near point is seen, t = 10\n",
+        "23. glyph\n",
+    ] {
+        assert!(text.contains(paragraph), "no {paragraph:?} in\n{text}");
+    }
+    assert!(text.is_ascii(), "a pipe in the locale C");
+}
+
+#[test]
+fn steps_and_solve_say_the_same_of_what_was_lost() {
+    let steps = text(&[
+        "print", "far", "--size", "40x40", "--style", "half", "--pixel", "20,20", "--method",
+        "textbook", "--steps",
+    ]);
+    let panel = Command::new(env!("CARGO_BIN_EXE_rayscope"))
+        .args(["solve", "--ray=-4100,0.5,0,1,0,0", "--sphere=0,0,0,1"])
+        .args(["--method", "textbook"])
+        .output()
+        .expect("the program runs");
+    let solved = String::from_utf8(panel.stdout).expect("text");
+    for said in ["exactly ", " ulp off\n", ": the first step to lose much\n"] {
+        assert!(steps.contains(said), "no {said:?} in\n{steps}");
+        assert!(solved.contains(said), "no {said:?} in\n{solved}");
+    }
+}
+
+#[test]
+fn steps_without_a_pixel_are_misuse() {
+    let output = run(&["print", "seed", "--steps"]);
+    assert_eq!(output.status.code(), Some(2));
+    let said = String::from_utf8(output.stderr).expect("text");
+    assert!(said.contains("--pixel"), "{said}");
 }

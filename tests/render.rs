@@ -4,7 +4,10 @@ use glam::Vec3;
 use proptest::prelude::*;
 use rayscope::geometry::Sphere;
 use rayscope::method::Method;
-use rayscope::render::{CELL_ASPECT, ColorDepth, Contact, Frame, Image, Look, Style, View, fit};
+use rayscope::method::exact::Stage;
+use rayscope::render::{
+    CELL_ASPECT, ColorDepth, Contact, Frame, Image, Look, Lost, Style, View, fit,
+};
 use rayscope::scene::{Body, Camera, Light, PixelShape, Projection, Rays, Scene, Size};
 
 fn body(center: [f32; 3], radius: f32) -> Body {
@@ -122,7 +125,7 @@ fn the_seed_has_317_hits_of_which_12_are_tangents() {
         assert_eq!(count(&frame, |c| c == Contact::Tangent), 12, "{method}");
     }
     let hit = rendered(&seed(), Size::new(40, 40), Method::Textbook, View::Shade)
-        .hit(20, 20)
+        .hit(&seed(), 20, 20)
         .expect("a hit");
     assert_eq!((hit.body, hit.t), (0, 10.0));
 }
@@ -135,7 +138,7 @@ fn a_sphere_behind_the_eye_is_told_apart_and_not_seen() {
     let frame = rendered(&behind, size, Method::Textbook, View::Class);
     assert_eq!(count(&frame, |c| c == Contact::SecantBehind), 305);
     assert_eq!(count(&frame, |c| c == Contact::TangentBehind), 12);
-    assert_eq!(frame.hit(20, 20), None);
+    assert_eq!(frame.seen(20, 20), None);
     // The tutorial's boolean cannot tell.
     let look = Look {
         style: Style::Seed,
@@ -154,7 +157,7 @@ fn of_two_spheres_at_equal_t_the_first_listed_wins() {
     let twin = || body([0.0, 0.0, -5.0], 1.0);
     let scene = scene(looking_down_z([0.0; 3]), vec![twin(), twin()]);
     let frame = rendered(&scene, Size::new(21, 21), Method::default(), View::Shade);
-    assert_eq!(frame.hit(10, 10).map(|hit| hit.body), Some(0));
+    assert_eq!(frame.seen(10, 10), Some(0));
 }
 
 #[test]
@@ -176,7 +179,7 @@ fn a_sphere_is_round_in_every_style() {
                 let mut frame = Frame::new();
                 let rays = Rays::new(&scene.camera, size, shape);
                 frame.render(&scene, &rays, Method::default(), View::Shade);
-                let seen = |x: u32, y: u32| frame.hit(x, y).is_some();
+                let seen = |x: u32, y: u32| frame.seen(x, y).is_some();
                 let width = (0..size.width)
                     .filter(|&x| seen(x, size.height / 2))
                     .count();
@@ -240,6 +243,123 @@ fn any_size_is_drawn_in_any_style() {
                     }
                 }
             }
+        }
+    }
+}
+
+fn pixels(frame: &Frame) -> impl Iterator<Item = (u32, u32)> + use<> {
+    let Size { width, height } = frame.size();
+    (0..height).flat_map(move |y| (0..width).map(move |x| (x, y)))
+}
+
+#[test]
+fn the_sign_of_delta_is_the_class() {
+    for method in Method::ALL {
+        let [class, delta] =
+            [View::Class, View::Delta].map(|v| rendered(&seed(), Size::new(40, 40), method, v));
+        for (x, y) in pixels(&class) {
+            // Δ/(4Ar²) = 1 − (p/r)²; from twice the radius on it is not shown.
+            let expected = 1.0 - ((x as f32 - 20.0).powi(2) + (y as f32 - 20.0).powi(2)) / 100.0;
+            let shown = delta.delta(x, y);
+            assert_eq!(shown.is_some(), expected > -3.0, "{method} ({x}, {y})");
+            assert!(shown.is_none_or(|d| (d - expected).abs() < 1e-5));
+            let sign = shown.map_or(-1.0, |d| if d == 0.0 { 0.0 } else { d.signum() });
+            let of_class = match class.contact(x, y) {
+                Contact::Secant => 1.0,
+                Contact::Tangent => 0.0,
+                _ => -1.0,
+            };
+            assert_eq!(sign, of_class, "{method} ({x}, {y})");
+        }
+    }
+}
+
+#[test]
+fn what_a_method_lost_is_told_from_what_it_got_wrong() {
+    let camera = looking_down_z([0.0, 0.0, 0.0]);
+    let far = scene(
+        Camera {
+            projection: Projection::Perspective {
+                field_of_view: 0.05,
+            },
+            ..camera
+        },
+        vec![body([0.0, 0.0, -3000.0], 1.0)],
+    );
+    let size = Size::new(32, 32);
+    let exact = rendered(&far, size, Method::Exact, View::Lost);
+    let textbook = rendered(&far, size, Method::Textbook, View::Lost);
+    let [mut wrong, mut lost] = [0, 0];
+    for (x, y) in pixels(&exact) {
+        let seen = exact.seen(x, y);
+        assert_eq!(exact.lost(x, y), seen.map(|_| Lost::Bits(0.0)));
+        match textbook.lost(x, y) {
+            None => assert_eq!(seen, None),
+            Some(Lost::Everything) => {
+                assert_ne!(textbook.seen(x, y), seen);
+                wrong += 1;
+            }
+            Some(Lost::Bits(bits)) => {
+                assert_eq!(textbook.seen(x, y), seen);
+                assert!((0.0..=24.0).contains(&bits));
+                lost += u32::from(bits > 4.0);
+            }
+        }
+    }
+    assert!(wrong > 20 && lost > 100, "{wrong} wrong, {lost} lost");
+}
+
+#[test]
+fn the_stages_of_the_seed_are_the_first_and_for_its_tangents_the_plain_one() {
+    let size = Size::new(40, 40);
+    let [class, stage] =
+        [View::Class, View::Stage].map(|v| rendered(&seed(), size, Method::Textbook, v));
+    for (x, y) in pixels(&class) {
+        let expected = match class.contact(x, y) {
+            Contact::Tangent => Stage::Unrounded,
+            _ => Stage::Binary64,
+        };
+        assert_eq!(stage.stage(x, y), Some(expected), "({x}, {y})");
+    }
+}
+
+#[test]
+fn depth_runs_from_the_nearest_to_the_farthest_and_normals_point_outwards() {
+    let size = Size::new(40, 40);
+    let depth = rendered(&seed(), size, Method::Exact, View::Depth);
+    assert_eq!(depth.range(), Some([10.0, 20.0]));
+    for (t, nearness) in [(10.0, 1.0), (200.0_f32.sqrt(), 0.5), (20.0, 0.0)] {
+        assert!((depth.nearness(t) - nearness).abs() < 1e-6);
+    }
+    let normal = rendered(&seed(), size, Method::Exact, View::Normal);
+    // The tutorial's screen has y downwards, and its sphere's centre at (20, 20).
+    for ((x, y), n) in [
+        ((20, 20), [0.0, 0.0, 1.0]),
+        ((26, 20), [0.6, 0.0, 0.8]),
+        ((20, 14), [0.0, 0.6, 0.8]),
+        ((12, 26), [-0.8, -0.6, 0.0]),
+    ] {
+        let found = normal.normal(&seed(), x, y).expect("a hit");
+        assert!(found.distance(n.into()) < 1e-6, "{found}");
+    }
+}
+
+#[test]
+fn every_view_can_be_read_in_every_style_without_colour() {
+    let mut scene = seed();
+    scene.bodies.push(body([28.0, 26.0, 12.0], 5.0));
+    for style in [Style::Half, Style::Braille, Style::Ascii] {
+        for view in [View::Depth, View::Normal, View::Delta] {
+            let look = Look {
+                style,
+                depth: ColorDepth::None,
+                ascii_only: false,
+            };
+            let image = drawn(&scene, (40, 40), view, look);
+            let mut glyphs: Vec<_> = image.cells.iter().map(|c| c.glyph).collect();
+            glyphs.sort_unstable();
+            glyphs.dedup();
+            assert!(glyphs.len() > 4, "{style:?} {view:?}: {glyphs:?}");
         }
     }
 }
@@ -324,27 +444,66 @@ fn any_scene() -> impl Strategy<Value = Scene> {
         })
 }
 
+/// Everything that a frame says of each pixel.
+fn said(scene: &Scene, frame: &Frame) -> Vec<impl PartialEq + std::fmt::Debug + use<>> {
+    pixels(frame)
+        .map(|(x, y)| {
+            let hit = frame
+                .hit(scene, x, y)
+                .map(|hit| (hit.body, hit.t.to_bits()));
+            let numbers = (
+                frame.brightness(x, y).to_bits(),
+                frame.delta(x, y).map(f32::to_bits),
+                frame.lost(x, y),
+                frame.stage(x, y),
+            );
+            let normal = frame.normal(scene, x, y);
+            (
+                (x, y),
+                hit,
+                frame.contact(x, y),
+                frame.outline(scene, x, y),
+                numbers,
+                normal.map(|n| n.to_array().map(f32::to_bits)),
+            )
+        })
+        .collect()
+}
+
+fn assert_same_in(frames: &mut [Frame; 2], scene: &Scene, rays: &Rays, method: Method, view: View) {
+    let [some, all] = frames;
+    some.render(scene, rays, method, view);
+    all.render_all(scene, rays, method, view);
+    assert_eq!(some.range(), all.range());
+    for (some, all) in said(scene, some).iter().zip(&said(scene, all)) {
+        assert_eq!(some, all, "{method}, {}", view.name());
+    }
+}
+
 fn assert_same(scene: &Scene, size: Size, shape: PixelShape) {
     let rays = Rays::new(&scene.camera, size, shape);
-    let [mut some, mut all] = [Frame::new(), Frame::new()];
+    let mut frames = [Frame::new(), Frame::new()];
     for method in Method::ALL {
         for view in View::ALL {
-            some.render(scene, &rays, method, view);
-            all.render_all(scene, &rays, method, view);
-            assert!(some == all, "{method}, {}", view.name());
+            assert_same_in(&mut frames, scene, &rays, method, view);
         }
     }
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
+    #![proptest_config(ProptestConfig::with_cases(500))]
 
     #[test]
     fn what_is_left_out_changes_no_bit(
         scene in any_scene(),
         (width, height) in (1_u32..40, 1_u32..30),
+        method in prop::sample::select(&Method::ALL[..]),
+        view in prop::sample::select(&View::ALL[..]),
     ) {
-        assert_same(&scene, Size::new(width, height), PixelShape::Aspect(1.5));
+        let rays = Rays::new(&scene.camera, Size::new(width, height), PixelShape::Aspect(1.5));
+        let mut frames = [Frame::new(), Frame::new()];
+        assert_same_in(&mut frames, &scene, &rays, method, view);
+        assert_same_in(&mut frames, &scene, &rays, Method::Exact, View::Shade);
     }
 }
 

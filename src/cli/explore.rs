@@ -1,15 +1,20 @@
 //! `rayscope [SCENE]`: opens the explorer.
 
+use std::env;
+use std::io;
+use std::panic::{self, AssertUnwindSafe};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
 
-use super::{INVALID, aspect, choice, complain};
+use super::place::Place;
+use super::{INVALID, MISUSED, aspect, choice, complain};
 use crate::explorer::{Explorer, Options};
 use crate::method::Method;
 use crate::render::{Style, View};
-use crate::scene::Scene;
-use crate::terminal::{self, Capability, Session, TerminalEvents};
+use crate::scene::{Scene, Source};
+use crate::terminal::{self, Capability, Session};
 
 /// How the explorer opens.
 #[derive(Debug, Args)]
@@ -33,41 +38,94 @@ pub(super) struct Explore {
     /// Height of a character cell over its width
     #[arg(long, default_value_t = Options::default().aspect, value_parser = aspect)]
     aspect: f64,
+
+    #[command(flatten)]
+    place: Place,
 }
 
 /// Opens the explorer and ends with the exit status that the person left it with.
 pub(super) fn run(arguments: &Explore) -> ExitCode {
-    let (scene, source) = match Scene::open(&arguments.scene) {
-        Ok(opened) => opened,
-        Err(e) => {
-            complain(e);
-            return ExitCode::from(INVALID);
+    match opened(arguments, fitted) {
+        Ok((mut explorer, source)) => {
+            if let Some(folder) = state_folder() {
+                explorer.keep_in(&folder, &source);
+            }
+            converse(&mut explorer)
         }
-    };
-    let capability = match Capability::detect() {
-        Ok(capability) => capability,
-        Err(unfit) => {
-            complain(unfit.0);
-            return ExitCode::from(INVALID);
+        Err((status, sentence)) => {
+            complain(sentence);
+            status.into()
         }
-    };
+    }
+}
+
+/// The explorer as it is asked for, its options made to `fit` the terminal; else an exit status and
+/// the reason.
+pub(super) fn opened(
+    arguments: &Explore,
+    fit: impl FnOnce(Options) -> Result<Options, (u8, String)>,
+) -> Result<(Explorer, Source), (u8, String)> {
+    let (scene, source) = Scene::open(&arguments.scene).map_err(|e| (INVALID, e.to_string()))?;
     let defaults = Options::default();
-    let options = Options {
+    let options = fit(Options {
         method: arguments.method,
         style: arguments.style.unwrap_or(defaults.style),
         view: arguments.view.unwrap_or(defaults.view),
         aspect: arguments.aspect,
+        ..defaults
+    })?;
+    let mut explorer = Explorer::new(scene, &source, options);
+    let opening = arguments.place.opening();
+    explorer.set_out(&opening).map_err(|e| (MISUSED, e))?;
+    Ok((explorer, source))
+}
+
+/// The options with what this terminal has; where it has too little, an exit status and the reason.
+pub(super) fn fitted(options: Options) -> Result<Options, (u8, String)> {
+    let capability = Capability::detect().map_err(|unfit| (INVALID, unfit.0.to_owned()))?;
+    Ok(Options {
         depth: capability.depth,
         glyphs: capability.glyphs,
+        ..options
+    })
+}
+
+/// Runs the explorer in the terminal; however that ends, unsaved work is kept.
+pub(super) fn converse(explorer: &mut Explorer) -> ExitCode {
+    let mut session = match Session::enter() {
+        Ok(session) => session,
+        Err(e) => return failed(&e),
     };
-    let mut explorer = Explorer::new(scene, &source, options);
-    let ended = Session::enter()
-        .and_then(|mut session| terminal::run(&mut explorer, &mut session, &mut TerminalEvents));
-    match ended {
-        Ok(status) => ExitCode::from(status),
-        Err(e) => {
-            complain(format!("the terminal failed: {e}"));
-            ExitCode::from(INVALID)
-        }
+    // After a panic only the scene is looked at, which is whole between any two changes.
+    let ended = panic::catch_unwind(AssertUnwindSafe(|| terminal::run(explorer, &mut session)));
+    let kept = explorer.finish();
+    drop(session);
+    match kept {
+        Ok(Some(path)) => complain(format_args!(
+            "unsaved work is kept in {}; opening the same scene offers it",
+            path.display()
+        )),
+        Ok(None) => {}
+        Err(sentence) => complain(sentence),
     }
+    match ended {
+        Ok(Ok(status)) => ExitCode::from(status),
+        Ok(Err(e)) => failed(&e),
+        Err(panicked) => panic::resume_unwind(panicked),
+    }
+}
+
+fn failed(error: &io::Error) -> ExitCode {
+    complain(format_args!("the terminal failed: {error}"));
+    ExitCode::from(INVALID)
+}
+
+/// Where programs of this person keep what should outlive them, as the XDG base directories have it.
+fn state_folder() -> Option<PathBuf> {
+    let folder = |name| {
+        let path = PathBuf::from(env::var_os(name)?);
+        path.is_absolute().then_some(path)
+    };
+    let state = folder("XDG_STATE_HOME").or_else(|| Some(folder("HOME")?.join(".local/state")))?;
+    Some(state.join("rayscope"))
 }

@@ -1,12 +1,19 @@
 //! The command line: parses the arguments and calls the part that does the work.
 
+mod bench;
 mod explore;
+mod grade;
+mod place;
 mod print;
+mod progress;
 mod scenes;
 mod solve;
+mod stress;
+mod tour;
 
 use std::fmt;
 use std::io::{ErrorKind, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -25,9 +32,13 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    Bench(bench::Bench),
+    Grade(grade::Grade),
     Print(print::Print),
     Scenes(scenes::Scenes),
     Solve(solve::Solve),
+    Stress(stress::Stress),
+    Tour(Box<tour::Tour>),
 }
 
 /// Runs the program with the arguments of this process.
@@ -35,9 +46,13 @@ pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
     match arguments.command {
         None => explore::run(&arguments.explore),
+        Some(Command::Bench(arguments)) => bench::run(&arguments),
+        Some(Command::Grade(arguments)) => grade::run(&arguments),
         Some(Command::Print(arguments)) => print::run(&arguments),
         Some(Command::Scenes(arguments)) => scenes::run(&arguments),
         Some(Command::Solve(arguments)) => solve::run(&arguments),
+        Some(Command::Stress(arguments)) => stress::run(&arguments),
+        Some(Command::Tour(arguments)) => tour::run(&arguments),
     }
 }
 
@@ -77,6 +92,16 @@ fn write_out(text: &str) -> ExitCode {
             ExitCode::from(INVALID)
         }
     }
+}
+
+/// Writes a file if one is asked for; says why if that fails.
+fn save(path: Option<&Path>, contents: impl FnOnce() -> String) -> Result<(), ()> {
+    let Some(path) = path else {
+        return Ok(());
+    };
+    std::fs::write(path, contents()).map_err(|error| {
+        complain(format_args!("cannot write {}: {error}", path.display()));
+    })
 }
 
 /// Says a sentence on standard error. If nobody can read it, nobody is missing it.

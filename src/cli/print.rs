@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 use crossterm::terminal::window_size;
 
 use super::{INVALID, MISUSED, aspect, choice, complain, write_out};
-use crate::explain::{self, Digits, Glyphs, Reading};
+use crate::explain::{self, Digits, Drawn, Glyphs, Reading};
 use crate::method::Method;
 use crate::render::{
     AnsiColor, CELL_ASPECT, Cell, ColorDepth, Frame, Image, Look, Style, View, fit,
@@ -49,6 +49,10 @@ pub(super) struct Print {
     /// Instead of the picture, what the ray of one of its pixels finds
     #[arg(long, value_name = "X,Y", value_parser = pixel)]
     pixel: Option<(u32, u32)>,
+
+    /// The whole derivation of that pixel, step by step
+    #[arg(long, requires = "pixel")]
+    steps: bool,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -85,7 +89,19 @@ fn text(arguments: &Print) -> Result<String, (u8, String)> {
         Some((x, y)) if x < size.width && y < size.height => {
             let ray = rays.ray(x, y);
             let reading = Reading::take(&scene, (x, y), ray, arguments.method, None, None);
-            Ok(panel(&reading, size, capability.glyphs))
+            let text = if arguments.steps {
+                let glyphs = capability.glyphs;
+                let look = Look {
+                    style,
+                    depth: ColorDepth::None,
+                    ascii_only: glyphs == Glyphs::Ascii,
+                };
+                steps(&scene, &rays, arguments, &reading, look)
+            } else {
+                panel(&reading)
+            };
+            let text = format!("{}\n{text}", title(&reading, size));
+            Ok(capability.glyphs.spell(&text))
         }
         Some((x, y)) => {
             let [right, bottom] = [size.width, size.height].map(|n| n.saturating_sub(1));
@@ -118,13 +134,32 @@ fn default_style(capability: Capability) -> Style {
     }
 }
 
-/// What the side panel of the explorer shows for a pixel, under a line that says for which.
-fn panel(reading: &Reading, size: Size, glyphs: Glyphs) -> String {
+/// For which pixel the lines below are.
+fn title(reading: &Reading, size: Size) -> String {
     let Size { width, height } = size;
     let ((x, y), method) = (reading.pixel, reading.method);
-    let title = format!("ray at ({x}, {y}) of {width} by {height} pixels, method {method}");
+    format!("ray at ({x}, {y}) of {width} by {height} pixels, method {method}")
+}
+
+/// What the side panel of the explorer shows for a pixel.
+fn panel(reading: &Reading) -> String {
     let lines = explain::lines(reading, DEFAULT_ROOM.0 as usize, Digits::Full);
-    glyphs.spell(&format!("{title}\n{}", explain::plain_text(&lines)))
+    explain::plain_text(&lines)
+}
+
+/// The derivation of a pixel, from its place to the character that shows it.
+fn steps(scene: &Scene, rays: &Rays, arguments: &Print, reading: &Reading, look: Look) -> String {
+    let mut frame = Frame::new();
+    let view = arguments.view.shown_in(look.style);
+    frame.render(scene, rays, arguments.method, view);
+    let mut image = Image::new();
+    image.draw(&frame, scene, look);
+    let drawn = Drawn::at(reading.pixel, &frame, &image, look.style);
+    let steps = explain::derivation(reading, scene, rays, &drawn);
+    if steps.is_empty() {
+        return "The scene has no spheres.\n".into();
+    }
+    format!("\n{}", explain::steps_text(&steps, DEFAULT_ROOM.0 as usize))
 }
 
 /// The picture as text, with escape sequences for its colours if there are any.
@@ -219,7 +254,7 @@ fn change_colors(
     }
 }
 
-fn size(text: &str) -> Result<Size, String> {
+pub(super) fn size(text: &str) -> Result<Size, String> {
     let side = |digits: &str| {
         let number = digits.parse().ok()?;
         (1..=Size::LARGEST).contains(&number).then_some(number)
@@ -232,7 +267,7 @@ fn size(text: &str) -> Result<Size, String> {
         })
 }
 
-fn pixel(text: &str) -> Result<(u32, u32), String> {
+pub(super) fn pixel(text: &str) -> Result<(u32, u32), String> {
     text.split_once(',')
         .and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)))
         .ok_or_else(|| "expected a column and a row, counted from 0, such as 20,20".into())

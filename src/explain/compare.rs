@@ -1,6 +1,8 @@
 //! Two methods side by side for the same pixel, quantity by quantity, bit by bit.
 
+use super::figure::{Float, bits};
 use super::panel::{Line, Role};
+use crate::method::Precision;
 use crate::method::format::Signs;
 use crate::method::trace::{Measured, Trace, ulps_text};
 
@@ -38,6 +40,18 @@ pub fn comparison(one: &Trace, other: &Trace, width: usize) -> Vec<Line> {
         out.extend(lines.map(|text| Line::new(0).with(Role::Warning, text)));
     }
     out
+}
+
+/// The bits of a number, beside those of the exact value rounded once to the same precision.
+pub fn measured_bits(label: &str, number: &Measured, width: usize) -> Vec<Line> {
+    let float = |value: f64| match number.precision {
+        Precision::Binary32 => Float::Single(value as f32),
+        Precision::Binary64 => Float::Double(value),
+    };
+    let exact = number.exact.as_ref().map(|e| e.round(number.precision));
+    let differing = exact.filter(|e| e.to_bits() != number.value.to_bits());
+    let other = differing.map(|e| ("exact, rounded", float(e)));
+    bits(label, float(number.value), other, width)
 }
 
 fn values(label: &str, x: Option<&Measured>, y: Option<&Measured>, column: usize) -> Line {

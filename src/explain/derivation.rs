@@ -10,7 +10,7 @@ use super::{Digits, Reading, Subject, number, vector};
 use crate::method::format::Signs;
 use crate::method::trace::{self, Measured, Trace};
 use crate::method::{Class, Method, Place, Precision};
-use crate::render::headlight;
+use crate::render::{Frame, Image, Style};
 use crate::scene::{Projection, Rays, Scene};
 
 /// What the picture made of a pixel.
@@ -24,6 +24,19 @@ pub struct Drawn {
     pub style: &'static str,
     /// What the picture shows: `shade`, `class`.
     pub view: &'static str,
+}
+
+impl Drawn {
+    /// What a frame and its image made of pixel (x, y).
+    pub fn at((x, y): (u32, u32), frame: &Frame, image: &Image, style: Style) -> Self {
+        let (col, row) = style.cell_of_pixel(x, y);
+        Self {
+            brightness: frame.brightness(x, y),
+            glyph: image.cell(col, row).map_or(' ', |cell| cell.glyph),
+            style: style.name(),
+            view: frame.view().name(),
+        }
+    }
 }
 
 /// One step of the derivation of a pixel.
@@ -120,7 +133,7 @@ pub fn derivation(reading: &Reading, scene: &Scene, rays: &Rays, drawn: &Drawn) 
         steps.push(point_step(reading, sight.t, sight.point));
         steps.push(check_step(subject, sight.point));
         steps.push(normal_step(subject, sight.point, sight.normal));
-        steps.push(shade_step(reading, subject, scene, sight.t, drawn));
+        steps.push(shade_step(reading, subject, scene, drawn));
     }
     steps.push(glyph_step(subject, drawn));
     steps
@@ -276,7 +289,11 @@ fn count_step(subject: &Subject) -> Step {
     };
     Step {
         result: result.into(),
-        exact: subject.trace.verdict(Signs::Typographic),
+        losses: subject
+            .trace
+            .verdict(Signs::Typographic)
+            .into_iter()
+            .collect(),
         question: Some(Question::Count),
         code: "Class::of_discriminant(discriminant)".into(),
         ..Step::plain(
@@ -375,7 +392,7 @@ fn normal_step(subject: &Subject, point: Vec3, normal: Vec3) -> Step {
     }
 }
 
-fn shade_step(reading: &Reading, subject: &Subject, scene: &Scene, t: f32, drawn: &Drawn) -> Step {
+fn shade_step(reading: &Reading, subject: &Subject, scene: &Scene, drawn: &Drawn) -> Step {
     let brightness = number(
         drawn.brightness.into(),
         Precision::Binary32,
@@ -392,7 +409,9 @@ fn shade_step(reading: &Reading, subject: &Subject, scene: &Scene, t: f32, drawn
             )
         };
     }
-    let cosine = headlight(&reading.ray, &subject.sphere, t);
+    let r = f64::from(subject.sphere.radius);
+    let q = subject.coefficients;
+    let cosine = (q.discriminant.max(0.0) / (4.0 * q.a * (r * r))).sqrt();
     let seen = reading
         .meetings
         .first()
@@ -405,11 +424,11 @@ fn shade_step(reading: &Reading, subject: &Subject, scene: &Scene, t: f32, drawn
     Step {
         numbers: format!("√({} / (4·A·r²))", n64(subject.coefficients.discriminant)),
         result,
-        code: "(a * t + b).abs() / (a.sqrt() * radius)".into(),
+        code: "(q.discriminant / (4.0 * q.a * (r * r))).sqrt()".into(),
         ..Step::plain(
             "shade",
             "The same Δ says how squarely the ray meets the surface: 1 head-on, 0 at the edge.",
-            "cos θ = √(Δ / (4Ar²)) = |At + B/2| / (√A·r)",
+            "cos θ = √(Δ / (4Ar²))",
         )
     }
 }

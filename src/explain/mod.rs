@@ -1,11 +1,12 @@
 //! What one pixel found, in numbers and words: the side panel without a terminal.
 //!
-//! A [`Reading`] is everything that the panel shows for the ray of one pixel. [`panel`] lays it
+//! A [`Reading`] is everything that the panel shows for the ray of one pixel. [`lines`] lays it
 //! out as lines of text with roles; the explorer colours them, `print --pixel` writes them as
 //! they are.
 
 mod compare;
 mod derivation;
+mod figure;
 mod number;
 mod panel;
 mod steps;
@@ -16,8 +17,9 @@ use crate::geometry::{Ray, Sphere};
 use crate::method::{Coefficients, Method, Place, Solution, Trace};
 use crate::scene::{Body, Scene};
 
-pub use compare::comparison;
+pub use compare::{comparison, measured_bits};
 pub use derivation::{Drawn, Question, Step, derivation};
+pub use figure::{Float, Ink, bits, curve, slice};
 pub use number::{Digits, Glyphs, number, vector};
 pub use panel::{Line, Role, Span, fit, lines, plain_text};
 pub use steps::{StepLook, question_lines, step_lines, step_list, steps_text, wrap};

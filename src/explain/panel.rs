@@ -17,7 +17,7 @@ use std::cmp::Ordering;
 use glam::Vec3;
 
 use super::wrap;
-use super::{Digits, Meeting, Reading, Subject, number, vector};
+use super::{Digits, Ink, Meeting, Reading, Subject, number, vector};
 use crate::method::format::Signs;
 use crate::method::trace::{Measured, ulps_text};
 use crate::method::{Class, Coefficients, Place, Precision, Solution};
@@ -61,6 +61,8 @@ pub enum Role {
     Changed,
     /// Where the person is in a list.
     Current,
+    /// A part of a figure.
+    Ink(Ink),
 }
 
 impl Line {
@@ -69,6 +71,34 @@ impl Line {
             spans: Vec::new(),
             spare,
         }
+    }
+
+    /// Adds a character, to the last piece if that plays the same role.
+    pub(super) fn push(&mut self, role: Role, glyph: char) {
+        self.append(role, glyph.encode_utf8(&mut [0; 4]));
+    }
+
+    /// Adds text, to the last piece if that plays the same role.
+    pub(super) fn append(&mut self, role: Role, text: &str) {
+        match self.spans.last_mut() {
+            _ if text.is_empty() => {}
+            Some(last) if last.role == role => last.text.push_str(text),
+            _ => self.spans.push(Span {
+                text: text.to_owned(),
+                role,
+            }),
+        }
+    }
+
+    /// Leaves out what is beyond column `width`.
+    pub(super) fn cut(&mut self, width: usize) {
+        let mut room = width;
+        for span in &mut self.spans {
+            let end = span.text.char_indices().nth(room).map(|(at, _)| at);
+            span.text.truncate(end.unwrap_or(span.text.len()));
+            room -= span.text.chars().count();
+        }
+        self.spans.retain(|span| !span.text.is_empty());
     }
 
     /// A line of words that stays.

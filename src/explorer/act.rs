@@ -2,18 +2,22 @@
 
 use std::path::PathBuf;
 
-use super::Explorer;
 use super::action::Action;
 use super::command::Command;
 use super::document::{Change, Document};
 use super::mode::{Form, Mode, Purpose, Question};
 use super::motion;
 use super::panel::Panel;
+use super::{Explorer, Request};
 use crate::method::Method;
 use crate::render::{Style, View};
 use crate::scene::{Aim, Camera};
 
 impl Explorer {
+    #[expect(
+        clippy::too_many_lines,
+        reason = "one arm for each action, so that the compiler finds a missing one"
+    )]
     pub(super) fn act(&mut self, action: Action) {
         match action {
             Action::CursorLeft => self.move_cursor(-1, 0),
@@ -86,6 +90,9 @@ impl Explorer {
 
             Action::PanelQuadratic => self.panel = Panel::Quadratic,
             Action::PanelSteps => self.panel = Panel::Steps,
+            Action::PanelSlice => self.panel = Panel::Slice,
+            Action::PanelCurve => self.panel = Panel::Curve,
+            Action::PanelBits => self.panel = Panel::Bits,
             Action::PanelCompare => self.panel = Panel::Compare,
             Action::NextStep => self.next_step(),
             Action::PreviousStep => self.go_to_step(self.step_at.saturating_sub(1)),
@@ -93,7 +100,17 @@ impl Explorer {
             Action::LastStep => self.go_to_step(usize::MAX),
             Action::Predict => self.toggle_prediction(),
             Action::Board => self.board = !self.board,
+            Action::ScrubForward => self.scrub(1.0),
+            Action::ScrubBack => self.scrub(-1.0),
+            Action::ScrubHome => self.scrubbed = None,
             Action::NextComparison => self.turn_comparison(),
+
+            Action::TourForward => self.tour_forward(),
+            Action::TourBack => self.tour_back(),
+            Action::TourAgain => self.tour_again(),
+            Action::TourNextChapter => self.tour_next_chapter(),
+            Action::TourPreviousChapter => self.tour_previous_chapter(),
+            Action::Tour => self.toggle_tour(),
 
             Action::Help => self.mode = Mode::Help { scroll: 0 },
             Action::CommandLine => self.prompt(Purpose::Command, ""),
@@ -112,13 +129,9 @@ impl Explorer {
                 let suggestion = self.suggested_file();
                 self.prompt(Purpose::SaveAs, &suggestion);
             }
-            Action::Quit => {
-                if self.is_changed() {
-                    self.mode = Mode::Ask(Question::Quit);
-                } else {
-                    self.ended = Some(0);
-                }
-            }
+            Action::Link => self.pass_on(),
+            Action::Suspend => self.request = Some(Request::Suspend),
+            Action::Quit => self.quit(),
         }
     }
 
@@ -133,9 +146,11 @@ impl Explorer {
             Command::SaveAs(name) => self.save_as(PathBuf::from(name)),
             Command::Method(method) => self.options.method = method,
             Command::Style(style) => self.set_style(style),
-            Command::View(view) => self.options.view = view,
+            Command::View(view) => self.set_view(view),
             Command::Panel(panel) => self.panel = panel,
             Command::Step(name) => self.go_to_step_named(&name),
+            Command::At(t) => self.scrubbed = Some(t),
+            Command::Tour(chapter) => self.tour_to(&chapter),
             Command::Compare(method) => {
                 self.other_method = Some(method);
                 self.panel = Panel::Compare;
@@ -205,10 +220,7 @@ impl Explorer {
         let size = self.size();
         let pixel = match probe.aim {
             Aim::Pixel(x, y) => Some((x, y)),
-            Aim::Point(p) => self.picture.rays.project(p.as_dvec3()).and_then(|[x, y]| {
-                let (x, y) = (x.round(), y.round());
-                (x >= 0.0 && y >= 0.0).then_some((x as u32, y as u32))
-            }),
+            Aim::Point(p) => self.pixel_of(p),
         };
         match pixel.filter(|&(x, y)| x < size.width && y < size.height) {
             Some((x, y)) => {
@@ -256,7 +268,7 @@ impl Explorer {
     }
 
     pub(super) fn turn_view(&mut self, by: usize) {
-        self.options.view = turn(&View::ALL, self.options.view, by);
+        self.set_view(turn(&View::ALL, self.options.view, by));
     }
 
     pub(super) fn turn_style(&mut self, by: usize) {
@@ -265,6 +277,18 @@ impl Explorer {
 
     pub(super) fn set_style(&mut self, style: Style) {
         self.options.style = style;
+        self.say_legend();
+    }
+
+    fn set_view(&mut self, view: View) {
+        self.options.view = view;
+        self.say_legend();
+    }
+
+    fn say_legend(&mut self) {
+        let (view, style) = (self.options.view, self.options.style);
+        let shown = view.shown_in(style).name();
+        self.say(format!("{shown}, {}: {}", style.name(), view.legend(style)));
     }
 
     pub(super) fn set_aspect(&mut self, aspect: f64) {

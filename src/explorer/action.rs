@@ -18,18 +18,21 @@ pub enum Group {
     View,
     /// Walking through the mathematics of one pixel.
     Steps,
+    /// Walking through the chapters that tell it all.
+    Tour,
     /// Files, history, the program itself.
     Program,
 }
 
 impl Group {
     /// All groups, in the order of the help page.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Cursor,
         Self::Camera,
         Self::Spheres,
         Self::View,
         Self::Steps,
+        Self::Tour,
         Self::Program,
     ];
 
@@ -41,6 +44,7 @@ impl Group {
             Self::Spheres => "Spheres",
             Self::View => "View",
             Self::Steps => "Step by step",
+            Self::Tour => "Tour",
             Self::Program => "Program",
         }
     }
@@ -63,7 +67,7 @@ macro_rules! actions {
                 match self { $( Self::$variant => $name, )* }
             }
 
-            /// The keys that do it, as [`Key::parse`] reads them.
+            /// The keys that do it, as `Key::parse` reads them.
             pub const fn keys(self) -> &'static [&'static str] {
                 match self { $( Self::$variant => &[$($key),*], )* }
             }
@@ -202,6 +206,12 @@ actions! {
     PanelQuadratic "panel-quadratic" ["1"] Steps;
     /// panel: the derivation, a step at a time
     PanelSteps "panel-steps" ["2"] Steps;
+    /// panel: the plane through ray and centre
+    PanelSlice "panel-slice" ["3"] Steps;
+    /// panel: the curve f(t) = At² + Bt + C
+    PanelCurve "panel-curve" ["4"] Steps;
+    /// panel: the bits of the step's number
+    PanelBits "panel-bits" ["5"] Steps;
     /// panel: the chosen method beside another
     PanelCompare "panel-compare" ["6"] Steps;
     /// open the steps; go to the next one, or reveal its answer
@@ -216,8 +226,27 @@ actions! {
     Predict "predict" ["P"] Steps;
     /// board: one step, large, for the back row
     Board "board" ["O"] Steps;
+    /// scrub t forward along the ray
+    ScrubForward "scrub-forward" [")"] Steps;
+    /// scrub t back along the ray
+    ScrubBack "scrub-back" ["("] Steps;
+    /// t back to where something is seen
+    ScrubHome "scrub-home" ["/"] Steps;
     /// compare with the next method
     NextComparison "next-comparison" ["C"] Steps;
+
+    /// open the tour; go to its next page
+    TourForward "tour-forward" ["f"] Tour;
+    /// previous page
+    TourBack "tour-back" ["F"] Tour;
+    /// this page again: everything as the page has it
+    TourAgain "tour-again" ["r"] Tour;
+    /// next chapter
+    TourNextChapter "tour-next-chapter" ["ctrl-n"] Tour;
+    /// first page of this chapter, or of the one before
+    TourPreviousChapter "tour-previous-chapter" ["ctrl-p"] Tour;
+    /// put the tour away and go back to your own scene; return to the tour
+    Tour "tour" ["ctrl-t"] Tour;
 
     /// this help
     Help "help" ["?", "f1"] Program;
@@ -235,6 +264,10 @@ actions! {
     Save "save" ["ctrl-s"] Program;
     /// save the scene under another name
     SaveAs "save-as" ["ctrl-a"] Program;
+    /// show and copy the command that reopens this very view
+    Link "link" ["ctrl-y"] Program;
+    /// stop, for the shell to take over; its `fg` comes back
+    Suspend "suspend" ["ctrl-z"] Program;
     /// quit; asks if there are unsaved changes
     Quit "quit" ["q"] Program;
 }

@@ -7,6 +7,7 @@ use crate::scene::Builtin;
 use super::action::Action;
 use super::field::{Field, parse_number};
 use super::panel::Panel;
+use super::tour;
 
 /// A line that was understood.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,6 +38,10 @@ pub enum Command {
     Panel(Panel),
     /// Go to the step of the derivation of that name or number.
     Step(String),
+    /// Put the moving point of slice and curve at this t.
+    At(f64),
+    /// Open the tour at this chapter.
+    Tour(String),
     /// Compare with this method.
     Compare(Method),
     /// Take cells to be this many times as high as wide.
@@ -63,7 +68,13 @@ pub const WITH_ARGUMENT: &[(&str, &str, &str)] = &[
     ),
     ("panel", "NAME", "show this panel"),
     ("step", "NAME", "go to the step of that name or number"),
+    (
+        "t",
+        "VALUE",
+        "put the moving point of slice and curve at this t",
+    ),
     ("compare", "NAME", "compare with this method"),
+    ("tour", "CHAPTER", "open the tour at a chapter"),
     ("stride", "LENGTH", "move and grow spheres by this much"),
     (
         "aspect",
@@ -100,7 +111,12 @@ impl Command {
             "set" => set(rest),
             "stride" => positive(rest, "stride").map(Self::Stride),
             "panel" => choice(rest, "panel", Panel::ALL, Panel::name).map(Self::Panel),
+            "tour" => argument(rest, "tour", "a chapter's name or number").map(Self::Tour),
             "step" => argument(rest, "step", "a step's name or number").map(Self::Step),
+            "t" => match parse_number("t", rest) {
+                Ok(t) => Ok(Self::At(t.into())),
+                Err(e) => Err(e.to_string()),
+            },
             "compare" => choice(rest, "compare", Method::ALL, Method::name).map(Self::Compare),
             "aspect" => positive(rest, "aspect").map(|a| Self::Aspect(a.into())),
             "" => Err("Type a command; tab completes, esc leaves.".into()),
@@ -123,7 +139,7 @@ fn argument(rest: &str, name: &str, expected: &str) -> Result<String, String> {
     }
 }
 
-fn choice<T: Copy>(
+pub(super) fn choice<T: Copy>(
     rest: &str,
     what: &str,
     all: impl IntoIterator<Item = T>,
@@ -217,6 +233,7 @@ pub fn complete(line: &str) -> Vec<String> {
         "style" => Style::ALL.iter().map(|s| s.name().to_owned()).collect(),
         "view" => View::ALL.iter().map(|v| v.name().to_owned()).collect(),
         "set" => Field::all_names(),
+        "tour" => tour::builtin().iter().map(|c| c.name.clone()).collect(),
         "open" => {
             let mut words: Vec<_> = Builtin::ALL.iter().map(|b| b.name().to_owned()).collect();
             words.extend(super::files::starting_with(typed));

@@ -113,11 +113,12 @@ impl Explorer {
             glyphs: self.options.glyphs,
             theme: Theme::new(self.options.depth),
         };
-        let Some(layout) = layout::of_scene(self.scene(), self.options, area) else {
+        let Some(layout) = self.layout(area) else {
             too_small(&mut pen, area);
             return None;
         };
         self.draw_title(&mut pen, layout.title);
+        self.draw_tour(&mut pen, layout.tour);
         if let Mode::Help { scroll } = self.mode {
             let body = layout.view.union(layout.panel).union(layout.strip);
             draw_help(&mut pen, body, scroll);

@@ -137,6 +137,31 @@ impl Field {
     }
 }
 
+/// The scene with all these numbers, if a scene file could hold it: what two of them say together
+/// is checked, not what each says alone.
+pub(super) fn set_all(
+    scene: &Scene,
+    selected: Option<usize>,
+    numbers: &[(Field, f32)],
+) -> Result<Scene, Invalid> {
+    let mut scene = scene.clone();
+    for &(field, value) in numbers {
+        if field.get(&scene, selected).is_none() {
+            let found = "not in this scene";
+            return Err(Invalid::new(field.name(), found, "a number the scene has"));
+        }
+        if field.is_of_sphere() {
+            if let Change::Replace(at, body) = field.set(&scene, selected, value)? {
+                scene.bodies[at] = body;
+            }
+        } else {
+            field.set_in_camera(&mut scene.camera, value);
+        }
+    }
+    scene.camera.check()?;
+    Ok(scene)
+}
+
 /// A number as a person types it, rounded once to binary32.
 pub fn parse_number(field: &str, text: &str) -> Result<f32, Invalid> {
     let plain = text.trim().replace('−', "-");

@@ -5,13 +5,13 @@
 //! ┌ view ──────────────────┐┌ panel ─────────────────┐
 //! │                        ││                        │   wide: side by side
 //! └────────────────────────┘└────────────────────────┘   narrow: one above the other
-//!  footer ────────────────────────────────────────────   small: a strip for the panel
+//!  tour ──────────────────────────────────────────────   small: a strip for the panel
+//!  footer ────────────────────────────────────────────
 //! ```
 
 use ratatui::layout::Rect;
 
-use super::Options;
-use crate::scene::Scene;
+use super::Explorer;
 
 /// The smallest screen that is drawn on, in columns and rows.
 pub const LEAST: (u16, u16) = (20, 6);
@@ -35,6 +35,8 @@ pub struct Layout {
     pub panel: Rect,
     /// One line that stands for the panel where there is no room for it.
     pub strip: Rect,
+    /// The tour's page, over the footer, while the tour is open.
+    pub tour: Rect,
     /// One line at the bottom: keys, messages, questions.
     pub footer: Rect,
 }
@@ -60,8 +62,8 @@ impl Layout {
         if area.width >= WIDE {
             let most = body.width - PANEL.0;
             let usual = body.width - (body.width * 2 / 5).clamp(PANEL.0, PANEL.1);
-            let rest = body.width - PANEL.1.min(most);
-            let view = wanted.map_or(usual, |(cols, _)| cols.clamp(rest.min(most), most));
+            // A picture of its own size leaves all the rest to the panels.
+            let view = wanted.map_or(usual, |(cols, _)| cols.clamp(LEAST.0, most));
             (layout.view, layout.panel) = split_columns(body, view);
         } else if area.height >= TALL {
             let usual = body.height - body.height / 2;
@@ -70,6 +72,21 @@ impl Layout {
         } else {
             (layout.view, layout.strip) = split_rows(body, body.height - 1);
         }
+        Some(layout)
+    }
+
+    /// As [`Layout::of`], with a box of that many rows over the footer.
+    pub fn with_box(area: Rect, picture: Option<(u32, u32)>, rows: u16) -> Option<Self> {
+        let rest = Rect {
+            height: area.height.saturating_sub(rows),
+            ..area
+        };
+        let mut layout = Self::of(rest, picture)?;
+        layout.tour = Rect {
+            height: rows,
+            ..layout.footer
+        };
+        layout.footer.y += rows;
         Some(layout)
     }
 }
@@ -109,16 +126,13 @@ pub fn inner(area: Rect) -> Rect {
     )
 }
 
-/// The layout of a scene's screen.
-pub fn of_scene(scene: &Scene, options: Options, area: Rect) -> Option<Layout> {
-    Layout::of(area, scene.pixels.map(|size| options.style.cells_of(size)))
-}
-
-/// Columns and rows that the picture of a scene has on a screen.
-pub fn picture_room(scene: &Scene, options: Options, cols: u16, rows: u16) -> (u16, u16) {
-    let area = Rect::new(0, 0, cols, rows);
-    let room = of_scene(scene, options, area).map_or(Rect::default(), |l| inner(l.view));
-    (room.width, room.height)
+impl Explorer {
+    /// The layout of the screen as it is now.
+    pub(super) fn layout(&self, area: Rect) -> Option<Layout> {
+        let style = self.options.style;
+        let picture = self.scene().pixels.map(|size| style.cells_of(size));
+        Layout::with_box(area, picture, self.tour_rows(area))
+    }
 }
 
 #[cfg(test)]
@@ -129,13 +143,14 @@ mod tests {
     fn the_parts_fill_every_screen_and_never_overlap() {
         for width in (0..300).step_by(7) {
             for height in (0..120).step_by(3) {
-                for picture in [None, Some((40, 20)), Some((400, 300)), Some((u32::MAX, 1))] {
+                let pictures = [None, Some((40, 20)), Some((400, 300)), Some((u32::MAX, 1))];
+                for (picture, rows) in pictures.into_iter().flat_map(|p| [(p, 0), (p, 6)]) {
                     let area = Rect::new(0, 0, width, height);
-                    let Some(l) = Layout::of(area, picture) else {
-                        assert!(width < LEAST.0 || height < LEAST.1);
+                    let Some(l) = Layout::with_box(area, picture, rows) else {
+                        assert!(width < LEAST.0 || height < LEAST.1 + rows);
                         continue;
                     };
-                    let parts = [l.title, l.view, l.panel, l.strip, l.footer];
+                    let parts = [l.title, l.view, l.panel, l.strip, l.tour, l.footer];
                     let sum: u32 = parts.iter().map(|p| p.area()).sum();
                     assert_eq!(sum, area.area(), "{area} {picture:?} {l:?}");
                     assert!(

@@ -6,6 +6,7 @@
 
 mod act;
 pub mod action;
+mod arrival;
 mod command;
 mod document;
 mod draw;
@@ -14,16 +15,20 @@ mod files;
 mod key;
 mod large;
 mod layout;
+mod link;
 mod mode;
 mod motion;
 mod panel;
 mod panels;
 mod picture;
 mod prompt;
+mod rescue;
 mod saving;
 mod spheres;
 mod stepping;
 mod theme;
+pub mod tour;
+mod touring;
 
 use ratatui::crossterm::event::{Event, KeyEventKind};
 
@@ -32,14 +37,19 @@ use crate::method::Method;
 use crate::render::{ColorDepth, Style, View};
 use crate::scene::{Scene, Size, Source};
 
+pub use link::{Opening, command_line};
+pub use panel::Panel;
+
+use arrival::Arrival;
 use document::Document;
 use key::Key;
 use mode::{Message, Mode, Prompt, Purpose};
-use panel::Panel;
 use picture::Picture;
 use prompt::Line;
+use rescue::Rescue;
 use saving::FilePlace;
 use stepping::Prediction;
+use touring::{Bookmark, Tour};
 
 /// How the explorer starts.
 #[derive(Debug, Clone, Copy)]
@@ -95,13 +105,31 @@ pub struct Explorer {
     prediction: Prediction,
     /// One step is shown large, in the place of picture and panels.
     board: bool,
+    /// t of the moving point; without it the point is where something is seen.
+    scrubbed: Option<f64>,
     /// The method that the chosen one is compared with; without it, the next one.
     other_method: Option<Method>,
     mode: Mode,
     message: Option<Message>,
     screen: (u16, u16),
     picture: Picture,
+    mouse: bool,
+    request: Option<Request>,
+    rescue: Option<Rescue>,
+    arrival: Arrival,
+    tour: Option<Tour>,
+    /// Where the person was when the tour was put away.
+    put_away: Option<Bookmark>,
     ended: Option<u8>,
+}
+
+/// What the explorer can't do itself.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Request {
+    /// Stop this process and give the terminal to the shell.
+    Suspend,
+    /// Put this text where the person can paste it from.
+    Copy(String),
 }
 
 impl Explorer {
@@ -127,11 +155,18 @@ impl Explorer {
             step_at: 0,
             prediction: Prediction::default(),
             board: false,
+            scrubbed: None,
             other_method: None,
             mode: Mode::Normal,
             message: None,
             screen: (0, 0),
             picture,
+            mouse: false,
+            request: None,
+            rescue: None,
+            arrival: Arrival::default(),
+            tour: None,
+            put_away: None,
             ended: None,
         }
     }
@@ -156,9 +191,29 @@ impl Explorer {
         self.ended
     }
 
-    /// Whether there are changes that were not saved.
+    /// Whether there are changes that were not saved, be it behind the tour.
     pub fn is_changed(&self) -> bool {
-        self.document.is_changed()
+        self.document.is_changed() || self.tour.as_ref().is_some_and(Tour::hides_changes)
+    }
+
+    /// Whether the person wants to use the mouse here rather than to select text.
+    pub const fn wants_mouse(&self) -> bool {
+        self.mouse
+    }
+
+    /// What the person has asked of whoever runs the explorer.
+    pub fn take_request(&mut self) -> Option<Request> {
+        self.request.take()
+    }
+
+    /// Shows a sentence until the next key.
+    pub fn tell(&mut self, sentence: &str) {
+        self.say(sentence);
+    }
+
+    /// How the screen is drawn now.
+    pub const fn options(&self) -> Options {
+        self.options
     }
 
     /// Lets an event change the state; false if nothing on the screen can have changed.

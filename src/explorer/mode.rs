@@ -1,6 +1,7 @@
 //! What keys mean now: actions, or text, or an answer.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use super::Explorer;
 use super::action::Action;
@@ -9,6 +10,8 @@ use super::draw;
 use super::field::{Field, parse_number};
 use super::key::Key;
 use super::prompt::Line;
+use super::rescue;
+use super::touring::Tour;
 
 /// What keys mean now.
 #[derive(Debug, Clone, PartialEq)]
@@ -67,6 +70,8 @@ pub(super) struct Form {
 pub(super) enum Question {
     Quit,
     Open(String),
+    Recover { path: PathBuf, age: Duration },
+    Tour,
     Overwrite { path: PathBuf, why: &'static str },
 }
 
@@ -78,6 +83,13 @@ impl Question {
             }
             Self::Open(name) => {
                 format!("Unsaved changes.  o open {name} without saving   esc stay")
+            }
+            Self::Recover { age, .. } => format!(
+                "Unsaved work of {} ago was kept.  o open it   d delete it   esc later",
+                rescue::words(*age)
+            ),
+            Self::Tour => {
+                "Unsaved changes.  s save   t tour: they wait behind it   esc stay".into()
             }
             Self::Overwrite { path, why } => {
                 format!("{} {why}.  o overwrite   esc keep it", path.display())
@@ -133,13 +145,30 @@ impl Explorer {
         }
     }
 
+    /// Ends the program, or asks first if that would lose something.
+    pub(super) fn quit(&mut self) {
+        if self.is_changed() {
+            self.ask_before_quitting();
+        } else {
+            self.ended = Some(0);
+        }
+    }
+
     /// Ctrl-C ends the program as SIGINT would; with unsaved changes it asks first, once.
     pub(super) fn interrupt(&mut self) {
         if self.is_changed() && self.mode != Mode::Ask(Question::Quit) {
-            self.mode = Mode::Ask(Question::Quit);
+            self.ask_before_quitting();
         } else {
             self.ended = Some(130);
         }
+    }
+
+    /// Asks about what is unsaved, in front of it: work that waits behind the tour comes back first.
+    pub(super) fn ask_before_quitting(&mut self) {
+        if self.tour.as_ref().is_some_and(Tour::hides_changes) {
+            self.leave_tour();
+        }
+        self.mode = Mode::Ask(Question::Quit);
     }
 
     pub(super) fn press_in_help(&mut self, key: Key, scroll: usize) {
@@ -246,6 +275,10 @@ impl Explorer {
             }
             Question::Quit if key.is("q") => self.ended = Some(0),
             Question::Open(name) if key.is("o") => self.open(&name),
+            Question::Recover { path, .. } if key.is("o") => self.recover(&path),
+            Question::Recover { path, .. } if key.is("d") => self.discard(&path),
+            Question::Tour if key.is("t") => self.visit_unsaved(),
+            Question::Tour if key.is("s") => self.save(),
             Question::Overwrite { path, .. } if key.is("o") => self.write(&path),
             _ if key.is("esc") || key.is("n") => self.say("Nothing was changed."),
             question => self.mode = Mode::Ask(question),

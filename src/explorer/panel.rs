@@ -10,6 +10,12 @@ pub enum Panel {
     Quadratic,
     /// The derivation, a step at a time.
     Steps,
+    /// The plane through ray and centre.
+    Slice,
+    /// f(t) = At² + Bt + C.
+    Curve,
+    /// The bits of a number.
+    Bits,
     /// The methods side by side.
     Compare,
 }
@@ -20,13 +26,23 @@ const LEAST: (u16, u16) = (46, 21);
 impl Panel {
     /// All panels, in the order of their keys, which is also the order in which they fill what room
     /// there is.
-    pub const ALL: [Self; 3] = [Self::Quadratic, Self::Steps, Self::Compare];
+    pub const ALL: [Self; 6] = [
+        Self::Quadratic,
+        Self::Steps,
+        Self::Slice,
+        Self::Curve,
+        Self::Bits,
+        Self::Compare,
+    ];
 
     /// The name on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Quadratic => "quadratic",
             Self::Steps => "steps",
+            Self::Slice => "slice",
+            Self::Curve => "curve",
+            Self::Bits => "bits",
             Self::Compare => "compare",
         }
     }

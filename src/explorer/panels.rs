@@ -27,6 +27,8 @@ impl Explorer {
         let (title, lines) = match panel {
             Panel::Quadratic => self.quadratic_panel(reading, room),
             Panel::Steps => self.steps_panel(room),
+            Panel::Slice | Panel::Curve => self.figure_panel(panel, reading, room),
+            Panel::Bits => self.bits_panel(room),
             Panel::Compare => self.compare_panel(reading, room),
         };
         // Only the panel that the person asked for scrolls.
@@ -52,6 +54,8 @@ impl Explorer {
         match panel {
             Panel::Steps if on && asked > 0 => format!("{right} of {asked} foreseen"),
             Panel::Steps => ", . step  < > ends".into(),
+            Panel::Slice | Panel::Curve => "( ) move along the ray  / back".into(),
+            Panel::Bits => ", . another number".into(),
             Panel::Compare => "C another method".into(),
             Panel::Quadratic => String::new(),
         }
@@ -93,6 +97,44 @@ impl Explorer {
         lines.extend(list);
         let title = format!("step {} of {}: {}", at + 1, steps.len(), step.name);
         (title, lines)
+    }
+
+    fn figure_panel(&self, panel: Panel, reading: &Reading, room: Rect) -> (String, Vec<Line>) {
+        let Some(subject) = &reading.subject else {
+            return (
+                panel.name().into(),
+                vec![Line::plain("The scene has no spheres.")],
+            );
+        };
+        let t = self.moving_t();
+        let (cols, rows) = (room.width.into(), room.height.into());
+        let glyphs = self.options.glyphs;
+        match panel {
+            Panel::Slice => (
+                "slice through ray and centre".into(),
+                explain::slice(subject, &reading.ray, t, cols, rows, glyphs),
+            ),
+            _ => (
+                "f(t) = At² + Bt + C".into(),
+                explain::curve(subject, &reading.ray, t, cols, rows, glyphs),
+            ),
+        }
+    }
+
+    /// The bits of the number that the step gives; for a step without one, of Δ.
+    fn bits_panel(&self, room: Rect) -> (String, Vec<Line>) {
+        let step = self.current_step().filter(|s| s.number.is_some());
+        let of_step = step.and_then(|s| Some((s.name.as_str(), s.number.as_ref()?)));
+        let subject = self.reading().and_then(|r| r.subject.as_ref());
+        let of_subject = || Some(("Δ", &subject?.trace.discriminant));
+        let Some((name, number)) = of_step.or_else(of_subject) else {
+            return (
+                "bits".into(),
+                vec![Line::plain("The scene has no spheres.")],
+            );
+        };
+        let lines = explain::measured_bits(name, number, room.width.into());
+        (format!("bits of {name}"), lines)
     }
 
     fn compare_panel(&self, reading: &Reading, room: Rect) -> (String, Vec<Line>) {

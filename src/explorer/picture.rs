@@ -1,6 +1,8 @@
 //! The picture and the reading under the cursor: made anew only when what they depend on changed.
 
-use super::{Explorer, Options, layout};
+use ratatui::layout::Rect;
+
+use super::{Explorer, Options, arrival, layout};
 use crate::explain::{Drawn, Glyphs, Reading, Step, derivation};
 use crate::method::Method;
 use crate::render::{Frame, Image, Look, View, fit};
@@ -45,7 +47,9 @@ impl Explorer {
     /// Brings picture and panel up to date for a screen of this many columns and rows.
     pub fn prepare(&mut self, cols: u16, rows: u16) {
         self.screen = (cols, rows);
-        let room = layout::picture_room(self.scene(), self.options, cols, rows);
+        let area = Rect::new(0, 0, cols, rows);
+        let room = layout::inner(self.layout(area).unwrap_or_default().view);
+        let room = (room.width, room.height);
         let Options {
             style,
             view,
@@ -76,9 +80,11 @@ impl Explorer {
             picture.image.draw(&picture.frame, scene, key.look);
             picture.key = Some(key);
         }
+        self.arrive();
         self.picture
             .scroll_to(style.cell_of_pixel(self.cursor.0, self.cursor.1), room);
         self.read(key);
+        self.arrive_at_step();
     }
 
     /// Keeps the cursor on the same place of the picture when the number of pixels changes.
@@ -89,14 +95,7 @@ impl Explorer {
             }
             return;
         };
-        let scaled = |at: u32, old: u32, new: u32| {
-            let middle = (f64::from(at) + 0.5) * f64::from(new) / f64::from(old.max(1));
-            (middle as u32).min(new.max(1) - 1)
-        };
-        self.cursor = (
-            scaled(self.cursor.0, old.width, size.width),
-            scaled(self.cursor.1, old.height, size.height),
-        );
+        self.cursor = arrival::scaled(self.cursor, old, size);
     }
 
     pub(super) fn read(&mut self, picture: PictureKey) {
@@ -127,15 +126,8 @@ impl Explorer {
         let Some(reading) = &self.picture.reading else {
             return;
         };
-        let (x, y) = self.cursor;
-        let (col, row) = self.options.style.cell_of_pixel(x, y);
-        let cell = self.picture.image.cell(col, row);
-        let drawn = Drawn {
-            brightness: self.picture.frame.brightness(x, y),
-            glyph: cell.map_or(' ', |c| c.glyph),
-            style: self.options.style.name(),
-            view: self.options.view.shown_in(self.options.style).name(),
-        };
+        let Picture { frame, image, .. } = &self.picture;
+        let drawn = Drawn::at(self.cursor, frame, image, self.options.style);
         let steps = derivation(reading, self.scene(), &self.picture.rays, &drawn);
         let before = std::mem::take(&mut self.picture.steps);
         let is_new = |step: &Step| {
@@ -163,6 +155,12 @@ impl Picture {
             steps: Vec::new(),
             changed: Vec::new(),
         }
+    }
+
+    /// Takes nothing of what is there for the picture of the scene that comes now.
+    pub(super) fn forget(&mut self) {
+        (self.key, self.reading_key) = (None, None);
+        self.steps.clear();
     }
 
     /// Scrolls a picture that is larger than its room by as little as shows the cursor's cell.

@@ -5,20 +5,22 @@ use std::path::{Path, PathBuf};
 use super::Explorer;
 use super::files::{self, Stamp};
 use super::mode::{Mode, Purpose, Question};
-use crate::scene::{Scene, Source};
+use crate::scene::{Builtin, Scene, Source};
 
 /// Where the scene came from and goes to.
 #[derive(Debug, Clone)]
 pub(super) enum FilePlace {
-    Builtin,
+    /// It has no file yet.
+    None,
+    Builtin(Builtin),
     File(Stamp),
 }
 
 impl FilePlace {
     pub(super) fn of(source: &Source) -> Self {
         match source {
-            Source::File(path) => Stamp::of(path).map_or(Self::Builtin, Self::File),
-            Source::Builtin(_) => Self::Builtin,
+            Source::File(path) => Stamp::of(path).map_or(Self::None, Self::File),
+            Source::Builtin(builtin) => Self::Builtin(*builtin),
         }
     }
 }
@@ -27,7 +29,7 @@ impl Explorer {
     pub(super) fn suggested_file(&self) -> String {
         match &self.place {
             FilePlace::File(stamp) => stamp.path().display().to_string(),
-            FilePlace::Builtin => {
+            FilePlace::None | FilePlace::Builtin(_) => {
                 let name: String = self
                     .scene()
                     .name
@@ -42,9 +44,14 @@ impl Explorer {
     pub(super) fn open(&mut self, name: &str) {
         match Scene::open(name) {
             Ok((scene, source)) => {
+                self.leave_tour();
                 let (screen, options) = (self.screen, self.options);
+                let (rescue, put_away) = (self.rescue.take(), self.put_away.take());
                 *self = Self::new(scene, &source, options);
-                self.screen = screen;
+                (self.screen, self.put_away) = (screen, put_away);
+                if let Some(rescue) = rescue {
+                    self.keep_in(&rescue.folder, &source);
+                }
                 let about = self.scene().about.clone().unwrap_or_default();
                 self.say(format!("{}. {about}", self.scene().name));
             }
@@ -54,7 +61,7 @@ impl Explorer {
 
     pub(super) fn save(&mut self) {
         match &self.place {
-            FilePlace::Builtin => {
+            FilePlace::None | FilePlace::Builtin(_) => {
                 let suggestion = self.suggested_file();
                 self.prompt(Purpose::SaveAs, &suggestion);
             }
@@ -88,6 +95,7 @@ impl Explorer {
             Ok(stamp) => {
                 self.place = FilePlace::File(stamp);
                 self.document.mark_saved();
+                self.saved_as(path);
                 self.say(format!("Saved {}.", path.display()));
             }
             Err(sentence) => self.warn(sentence),

@@ -7,6 +7,9 @@ use super::panel::Panel;
 use crate::explain::{Question, Step};
 use crate::method::Method;
 
+/// A step of the moving point, in radii.
+const SCRUB: f64 = 1.0 / 16.0;
+
 /// Predict, then reveal: whether results are kept back, and how the guesses went. Nothing of it is
 /// stored anywhere.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -44,7 +47,7 @@ impl Explorer {
 
     pub(super) fn go_to_step(&mut self, at: usize) {
         let last = self.picture.steps.len().saturating_sub(1);
-        if !self.board {
+        if !self.board && self.panel != Panel::Bits {
             self.panel = Panel::Steps;
         }
         if at > last && self.step_at == last && at != usize::MAX {
@@ -57,17 +60,22 @@ impl Explorer {
     }
 
     pub(super) fn go_to_step_named(&mut self, name: &str) {
+        match self.step_named(name) {
+            Ok(at) => self.go_to_step(at),
+            Err(sentence) => self.warn(sentence),
+        }
+    }
+
+    /// The place of the step of that name or, from 1, of that number.
+    pub(super) fn step_named(&self, name: &str) -> Result<usize, String> {
         let steps = &self.picture.steps;
         let by_name = steps.iter().position(|s| s.name == name);
-        let by_number = name.parse().ok().and_then(|n: usize| n.checked_sub(1));
+        let by_number = || name.parse().ok().and_then(|n: usize| n.checked_sub(1));
         let count = steps.len();
-        if let Some(at) = by_name.or(by_number).filter(|&at| at < count) {
-            self.go_to_step(at);
-        } else {
-            self.warn(format!(
-                "step: found “{name}”, expected a step's name or 1 to {count}"
-            ));
-        }
+        by_name
+            .or_else(by_number)
+            .filter(|&at| at < count)
+            .ok_or_else(|| format!("step: found “{name}”, expected a step's name or 1 to {count}"))
     }
 
     pub(super) fn toggle_prediction(&mut self) {
@@ -118,6 +126,37 @@ impl Explorer {
             ));
         }
         true
+    }
+
+    /// t of the moving point: where the person put it, else where something is seen, else where
+    /// the ray comes nearest to the centre.
+    pub(super) fn moving_t(&self) -> f64 {
+        let subject = self.reading().and_then(|r| r.subject.as_ref());
+        self.scrubbed.unwrap_or_else(|| {
+            subject.map_or(0.0, |s| match s.sight {
+                Some(sight) => sight.t.into(),
+                None => -s.coefficients.b / (2.0 * s.coefficients.a),
+            })
+        })
+    }
+
+    pub(super) fn scrub(&mut self, steps: f64) {
+        let subject = self.reading().and_then(|r| r.subject.as_ref());
+        let Some(subject) = subject else {
+            return self.say("There is no sphere to go along a ray to.");
+        };
+        let c = subject.coefficients;
+        let closest = (-c.b / (2.0 * c.a)).abs();
+        // Relative to the sphere where it is far away, so that its points can be told apart.
+        let radius = f64::from(subject.sphere.radius) / c.a.sqrt();
+        let length = if radius > 0.0 { radius } else { closest };
+        let t = self.moving_t() + steps * SCRUB * length;
+        if t.is_finite() {
+            self.scrubbed = Some(t);
+        }
+        if self.panel != Panel::Curve {
+            self.panel = Panel::Slice;
+        }
     }
 
     /// The method that the chosen one is compared with.

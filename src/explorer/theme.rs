@@ -2,7 +2,7 @@
 
 use ratatui::style::{Color, Modifier, Style};
 
-use crate::explain::Role;
+use crate::explain::{Ink, Role};
 use crate::method::Class;
 use crate::render::{AnsiColor, ColorDepth};
 use crate::scene::Rgb;
@@ -41,6 +41,25 @@ impl Theme {
                 .hue(Color::LightYellow)
                 .add_modifier(Modifier::UNDERLINED),
             Role::Current => Self::chosen(),
+            Role::Ink(ink) => self.ink(ink),
+        }
+    }
+
+    /// A part of a figure. Letters and dash patterns tell the parts apart, too.
+    fn ink(self, ink: Ink) -> Style {
+        match ink {
+            Ink::Axis | Ink::Radius => Style::new().add_modifier(Modifier::DIM),
+            Ink::Behind => self.hue(Color::Yellow).add_modifier(Modifier::DIM),
+            Ink::Circle | Ink::Curve => self.hue(Color::LightCyan),
+            Ink::Ray => self.hue(Color::LightYellow),
+            Ink::Tangent => self.hue(Color::LightMagenta),
+            Ink::Normal => self.hue(Color::LightBlue),
+            Ink::Note => Style::new(),
+            Ink::Point => Style::new().add_modifier(Modifier::BOLD),
+            Ink::Root => self.hue(Color::LightGreen).add_modifier(Modifier::BOLD),
+            Ink::Scrub => self
+                .hue(Color::LightMagenta)
+                .add_modifier(Modifier::BOLD | Modifier::REVERSED),
         }
     }
 

@@ -19,20 +19,33 @@ pub struct Family {
 }
 
 /// A ray and a sphere before they are rounded to binary32.
-struct Case {
-    origin: [f64; 3],
-    direction: [f64; 3],
-    center: [f64; 3],
-    radius: f64,
+pub(super) struct Case {
+    pub origin: [f64; 3],
+    pub direction: [f64; 3],
+    pub center: [f64; 3],
+    pub radius: f64,
 }
 
 impl Case {
     /// The ray and sphere in binary32, if they are a ray and a sphere.
-    fn rounded(&self) -> Option<(Ray, Sphere)> {
+    pub fn rounded(&self) -> Option<(Ray, Sphere)> {
         let vector = |v: [f64; 3]| Vec3::from(v.map(|x| x as f32));
         let ray = Ray::new(vector(self.origin), vector(self.direction)).ok()?;
         let sphere = Sphere::new(vector(self.center), self.radius as f32).ok()?;
         Some((ray, sphere))
+    }
+
+    /// The roots before any rounding to binary32, by Lagrange's identity in binary64.
+    pub fn roots(&self) -> Option<[f64; 2]> {
+        let (d, r) = (self.direction, self.radius);
+        let o = [0, 1, 2].map(|i| self.origin[i] - self.center[i]);
+        let k = [0, 1, 2].map(|i| {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            o[j] * d[k] - o[k] * d[j]
+        });
+        let (a, b) = (dot(d, d), dot(o, d));
+        let root = (a * r * r - dot(k, k)).sqrt();
+        (!root.is_nan()).then(|| [(-b - root) / a, (-b + root) / a])
     }
 }
 
@@ -95,7 +108,13 @@ impl Family {
 
 /// A ray whose line passes the centre at distance `miss`, from a point at distance `distance`, in
 /// any direction of space.
-fn aimed(random: &mut Random, center: [f64; 3], radius: f64, distance: f64, miss: f64) -> Case {
+pub(super) fn aimed(
+    random: &mut Random,
+    center: [f64; 3],
+    radius: f64,
+    distance: f64,
+    miss: f64,
+) -> Case {
     let forward = random.unit_vector();
     let side = perpendicular(forward, random.unit_vector());
     let along = (distance * distance - miss * miss).abs().sqrt();
@@ -119,7 +138,7 @@ fn dot(u: [f64; 3], v: [f64; 3]) -> f64 {
     u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 }
 
-fn typical(random: &mut Random) -> Case {
+pub(super) fn typical(random: &mut Random) -> Case {
     let center = [0; 3].map(|_| random.uniform(-10.0, 10.0));
     let radius = random.uniform(0.5, 2.0);
     let distance = radius * random.uniform(2.0, 12.0);
@@ -158,7 +177,7 @@ fn grazing(random: &mut Random) -> Case {
 
 /// Three vectors of whole numbers, across each other, all of the same whole length: the rotation of
 /// a whole quaternion.
-fn whole_frame(random: &mut Random, size: i32) -> ([[f64; 3]; 3], f64) {
+pub(super) fn whole_frame(random: &mut Random, size: i32) -> ([[f64; 3]; 3], f64) {
     loop {
         let [w, x, y, z] = [0; 4].map(|_| f64::from(random.integer(-size, size)));
         let length = w * w + x * x + y * y + z * z;

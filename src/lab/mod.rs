@@ -1,9 +1,35 @@
-//! The laboratory: rays to hold the methods against.
+//! The laboratory: rays to hold the methods against, what that shows, and what it costs.
 //!
-//! What is measured with them, error and time, joins here later; nothing here draws.
+//! Nothing here knows a terminal; the command line and the explorer print what is found.
 
+pub mod bench;
+pub mod dials;
+mod errors;
 pub mod families;
+pub mod frames;
+pub mod grade;
+mod hexadecimal;
+mod machine;
+pub mod picture;
+pub mod plot;
+pub mod promise;
 mod random;
+mod reference;
+pub mod stress;
+pub mod timing;
+mod turn;
 
+pub use dials::Dial;
+pub use errors::{
+    Census, Checksum, Errors, Fault, Judgement, Percentiles, RootError, Worst, Wrong, judge,
+};
 pub use families::Family;
+pub use hexadecimal::{hexadecimal, numbers};
+pub use machine::Machine;
 pub use random::Random;
+pub use reference::{Reference, Root};
+
+use crate::geometry::{Ray, Sphere};
+
+/// What a method is asked: where the line of this ray meets this sphere.
+pub type Problem = (Ray, Sphere);

@@ -258,16 +258,16 @@ pub fn write(trace: &Trace, out: &mut impl fmt::Write, signs: Signs, digits: usi
             (Some(ulps), Some(exact)) if ulps != 0.0 => {
                 writeln!(
                     out,
-                    "    exact: {exact}, {} ulp off",
+                    "    exactly {exact}, {} ulp off",
                     ulps_text(ulps, signs)
                 )?;
             }
-            (None, _) => writeln!(out, "    exact: there is none")?,
+            (None, _) => writeln!(out, "    exactly, there is none")?,
             _ => {}
         }
-        for loss in &step.losses {
-            let first = if heavy == Some(i) {
-                " <- the first to lose much"
+        for (j, loss) in step.losses.iter().enumerate() {
+            let first = if heavy == Some(i) && j == 0 {
+                ": the first step to lose much"
             } else {
                 ""
             };
@@ -443,12 +443,22 @@ mod tests {
                 [[-3.0, 1.0, 0.0], [1.0, 1e-45, 0.0]],
                 [[-16_777_218.0, 1e-30, 0.0], [1.0, 0.0, 0.0]],
                 [[0.7, 0.714_142_8, 1e-30], [1.0, 0.1, 0.0]],
+                [[1.000_000_1, 0.0, 0.0], [-1.0, 0.0, 0.0]],
             ];
+            let mut asked = Vec::new();
             for [p0, d] in places {
                 let steps = trace(method, p0, d, [0.0; 3], 1.0).steps;
                 assert!(!steps.is_empty());
                 for step in steps {
                     assert!(source.contains(step.code), "{method}: {}", step.code);
+                    asked.push(step.symbol);
+                }
+            }
+            let stages = ["D, unrounded", "C, compensated", "D, in whole numbers"];
+            let slow = ["D, double-double", "D, integers"];
+            if method == Method::Exact {
+                for stage in stages.iter().chain(&slow) {
+                    assert!(asked.contains(stage), "no ray here asks for {stage}");
                 }
             }
         }
@@ -582,8 +592,8 @@ mod tests {
                 .numbers
                 .ends_with("the sign of D is open")
         );
-        let whole = tangent.step("D, not rounded").unwrap();
-        assert_eq!(whole.numbers, "tangent, near 3, far 3");
+        let unrounded = tangent.step("D, unrounded").unwrap();
+        assert_eq!(unrounded.numbers, "tangent, near 3, far 3");
         let tilted = trace(
             Method::Exact,
             [-3.0, 1.0, 0.0],

@@ -7,27 +7,9 @@ use std::ops::Range;
 
 use glam::DVec3;
 
+use super::cover::Bounds;
 use crate::geometry::Sphere;
 use crate::scene::{Rays, Size};
-
-/// A rectangle of pixels.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Window {
-    /// Columns, from the left.
-    pub columns: Range<u32>,
-    /// Rows, from the top.
-    pub rows: Range<u32>,
-}
-
-impl Window {
-    /// All pixels of a picture.
-    pub(super) const fn whole(size: Size) -> Self {
-        Self {
-            columns: 0..size.width,
-            rows: 0..size.height,
-        }
-    }
-}
 
 /// What the bounds need of the camera, in binary64: unit axes, and the pixel step along each.
 pub(super) struct Eye {
@@ -88,28 +70,44 @@ impl Eye {
         }
     }
 
-    /// The pixels at which a method may find that the line meets `sphere`, or fail to tell.
-    pub(super) fn window(&self, sphere: &Sphere) -> Window {
+    /// The pixels at which a method may find that the line passes the centre of `sphere` at no more
+    /// than `reach` times its radius, or fail to tell. With a reach of 1 these are hits.
+    pub(super) fn window(&self, sphere: &Sphere, reach: f64) -> Bounds {
         let o = sphere.center.as_dvec3() - self.origin;
         let distance = o.length() + self.spread;
         let radius = f64::from(sphere.radius);
         if !(self.ordinary && distance <= FARTHEST && radius <= FARTHEST) {
-            return Window::whole(self.size);
+            return Bounds::whole(self.size);
         }
-        let radius = self.inflated(radius, distance);
+        let radius = self.inflated(radius, reach, distance);
         let [a, b, z] = self.axes.map(|axis| o.dot(axis));
-        Window {
-            columns: self.span(a, z, radius, self.step[0], self.size.width),
-            rows: self.span(b, z, radius, self.step[1], self.size.height),
+        let columns = self.span(a, z, radius, self.step[0], self.size.width);
+        let rows = self.span(b, z, radius, self.step[1], self.size.height);
+        Bounds {
+            left: columns.start as i16,
+            right: columns.end as i16 - 1,
+            top: rows.start as i16,
+            bottom: rows.end as i16 - 1,
         }
+    }
+
+    /// Whether a line may meet `sphere` behind the eye.
+    pub(super) fn may_be_behind(&self, sphere: &Sphere) -> bool {
+        let o = sphere.center.as_dvec3() - self.origin;
+        let radius = f64::from(sphere.radius);
+        let error = RAY_ERROR * (o.length() + self.spread + self.origin.length() + radius);
+        let ahead = o.dot(self.axes[2]);
+        // What is not a number may be anywhere.
+        ahead <= radius + error || (ahead - radius - error).is_nan()
     }
 
     /// The radius of a sphere that every line meets of which a method may say that it meets the
     /// sphere of this `radius` at this `distance`. A method that errs by E in Δ/4A takes the line
-    /// at distance p from the centre for a hit if p² ≤ r² + E at most.
-    fn inflated(&self, radius: f64, distance: f64) -> f64 {
+    /// at distance p from the centre for a hit if p² ≤ r² + E at most; with a `reach` of k, for one
+    /// that passes within k r, where Δ/4A > (1 − k²) r², if p² ≤ (k r)² + E.
+    fn inflated(&self, radius: f64, reach: f64, distance: f64) -> f64 {
         let square = radius * radius;
-        let taken = square + DISCRIMINANT_ERROR * (distance * distance + square);
+        let taken = reach * reach * square + DISCRIMINANT_ERROR * (distance * distance + square);
         taken.sqrt() + RAY_ERROR * (distance + self.origin.length()) + UNDERFLOW
     }
 
@@ -137,6 +135,7 @@ impl Eye {
             return whole;
         }
         // A float too small or too large for the picture becomes its first or last pixel.
-        first as u32..(last + 1.0).clamp(0.0, f64::from(pixels)) as u32
+        first.clamp(0.0, f64::from(pixels)) as u32
+            ..(last + 1.0).clamp(0.0, f64::from(pixels)) as u32
     }
 }

@@ -1,6 +1,6 @@
 //! The image: cells of a character and two colours, drawn from a frame in a style.
 
-use super::color::color_of;
+use super::ink::{Ink, NO_ANSWER, ink};
 use super::ramp::Ramps;
 use super::{ColorDepth, Contact, Frame, Style, View};
 use crate::scene::{Rgb, Scene};
@@ -100,21 +100,6 @@ impl Image {
     }
 }
 
-/// What a pixel contributes to its cell.
-#[derive(Debug, Clone, Copy)]
-struct Ink {
-    contact: Contact,
-    /// 0 to 1: how much of a hit there is to see.
-    brightness: f32,
-    color: Option<Rgb>,
-}
-
-/// What marks a pixel for which a method has no answer.
-const NO_ANSWER: char = '?';
-
-/// From dark to bright. Even the darkest is no blank: it is a hit.
-const RAMP: &[u8] = b".,:-=+*#%@";
-
 struct Painter<'a> {
     frame: &'a Frame,
     scene: &'a Scene,
@@ -135,66 +120,28 @@ impl Painter<'_> {
 
     /// What is to be seen at pixel (x, y); nothing where nothing is.
     fn ink(&mut self, x: u32, y: u32) -> Option<Ink> {
-        let contact = self.frame.contact(x, y);
-        let brightness = match self.frame.view() {
-            _ if contact == Contact::Miss => return None,
-            _ if contact == Contact::Nan => 1.0,
-            View::Shade => self.frame.brightness(x, y),
-            View::Class => 1.0,
-            View::Outline if self.frame.outline(x, y) => 1.0,
-            View::Outline => return None,
-        };
-        if self.dithers() && contact != Contact::Nan && !self.has_dot(x, y) {
-            return None;
-        }
-        let color = (self.look.depth != ColorDepth::None).then(|| match self.frame.view() {
-            View::Shade | View::Outline if contact != Contact::Nan => self.color(x, y, brightness),
-            _ => class_color(contact),
-        });
-        Some(Ink {
-            contact,
-            brightness,
-            color,
-        })
+        ink(self.frame, self.scene, self.look.depth, self.ramps, (x, y))
     }
 
-    /// Whether shades are shown by how many dots there are, for want of colours.
+    /// Whether levels are shown by how many dots there are, for want of colours.
     fn dithers(&self) -> bool {
-        let Look { style, depth, .. } = self.look;
-        let view = self.frame.view();
-        (style, depth, view) == (Style::Braille, ColorDepth::None, View::Shade)
+        self.look.depth == ColorDepth::None && self.frame.view().has_levels()
     }
 
-    /// Whether the hit at pixel (x, y) is bright enough for its place in the pattern, or an edge:
-    /// the edges keep dark spheres whole and apart.
-    fn has_dot(&self, x: u32, y: u32) -> bool {
+    /// Whether the pixel (x, y) of this level is bright enough for its place in the pattern, or an
+    /// edge: the edges keep dark spheres whole and apart.
+    fn has_dot(&self, x: u32, y: u32, ink: &Ink) -> bool {
         let rank = BAYER[y as usize % 4][x as usize % 4];
         let threshold = (f32::from(rank) + 0.5) / 16.0;
-        self.frame.brightness(x, y) > threshold || self.frame.outline(x, y)
-    }
-
-    /// The colour of the sphere seen at pixel (x, y), in the shade of this brightness.
-    fn color(&mut self, x: u32, y: u32, brightness: f32) -> Rgb {
-        let seen = self.frame.hit(x, y).map_or(0, |hit| hit.body as usize);
-        let base = self.scene.bodies.get(seen).map(|b| color_of(seen, b));
-        let base = base.unwrap_or(Rgb(255, 255, 255));
-        let shades = self.ramps.of(base);
-        let shade = (brightness * shades.len() as f32) as usize;
-        shades[shade.min(shades.len() - 1)]
+        ink.level > threshold || self.frame.outline(self.scene, x, y)
     }
 
     fn ascii(&mut self, x: u32, y: u32) -> Cell {
-        let Some(ink) = self.ink(x, y) else {
-            let miss = self.frame.view() == View::Class;
-            return Cell::plain(if miss { '.' } else { ' ' });
-        };
-        let glyph = match self.frame.view() {
-            _ if ink.contact == Contact::Nan => NO_ANSWER,
-            View::Shade => ramp(self.frame.brightness(x, y)),
-            View::Class => class_glyph(ink.contact),
-            View::Outline => '#',
-        };
-        Cell::of(glyph, ink.color)
+        match self.ink(x, y) {
+            Some(ink) => Cell::of(ink.glyph, ink.color),
+            None if self.frame.view() == View::Class => Cell::plain('.'),
+            None => Cell::BLANK,
+        }
     }
 
     /// The tutorial's two characters, of which this is one.
@@ -208,14 +155,10 @@ impl Painter<'_> {
 
     fn half(&mut self, x: u32, y: u32) -> Cell {
         let (top, bottom) = (self.ink(x, y), self.ink(x, y + 1));
-        if is_nan(top) || is_nan(bottom) {
-            return Cell::of(NO_ANSWER, self.nan_color());
+        if let Some(nan) = [top, bottom].into_iter().flatten().find(Ink::is_no_answer) {
+            return Cell::of(NO_ANSWER, nan.color);
         }
-        let glyph = if self.frame.view() == View::Class {
-            quadrants(quarters(top), quarters(bottom))
-        } else {
-            quadrants(top.map_or(0, |_| 0b11), bottom.map_or(0, |_| 0b11))
-        };
+        let glyph = quadrants(self.quarters(top), self.quarters(bottom));
         let glyph = if self.look.ascii_only {
             ascii_for_half(glyph)
         } else {
@@ -232,26 +175,36 @@ impl Painter<'_> {
         }
     }
 
-    fn nan_color(&self) -> Option<Rgb> {
-        (self.look.depth != ColorDepth::None).then(|| class_color(Contact::Nan))
+    /// The quarters of a half block that a pixel sets. Where a colour shows its level it sets both.
+    fn quarters(&self, ink: Option<Ink>) -> usize {
+        let colored = self.look.depth != ColorDepth::None;
+        match ink {
+            None => 0b00,
+            Some(_) if colored && self.frame.view() != View::Class => 0b11,
+            Some(ink) => ink.quarters,
+        }
     }
 
     fn braille(&mut self, x: u32, y: u32) -> Cell {
         let mut dots = 0;
         let mut seen: Option<Ink> = None;
         for (dx, dy, dot) in DOTS {
-            let Some(ink) = self.ink(x + dx, y + dy) else {
+            let (x, y) = (x + dx, y + dy);
+            let Some(ink) = self.ink(x, y) else {
                 continue;
             };
+            if self.dithers() && !ink.is_no_answer() && !self.has_dot(x, y, &ink) {
+                continue;
+            }
             dots |= dot;
-            if seen.is_none_or(|s| rank(&ink) > rank(&s)) {
+            if seen.is_none_or(|s| ink.rank() > s.rank()) {
                 seen = Some(ink);
             }
         }
         let Some(seen) = seen else {
             return Cell::BLANK;
         };
-        let glyph = if seen.contact == Contact::Nan {
+        let glyph = if seen.is_no_answer() {
             NO_ANSWER
         } else if self.look.ascii_only {
             ascii_for_dots(dots)
@@ -259,61 +212,6 @@ impl Painter<'_> {
             char::from_u32(0x2800 + dots).unwrap_or(' ')
         };
         Cell::of(glyph, seen.color)
-    }
-}
-
-fn is_nan(ink: Option<Ink>) -> bool {
-    ink.is_some_and(|i| i.contact == Contact::Nan)
-}
-
-fn ramp(brightness: f32) -> char {
-    let step = (brightness * RAMP.len() as f32) as usize;
-    RAMP[step.min(RAMP.len() - 1)].into()
-}
-
-/// Which of several pixels gives its colour to the cell: what is rare, then what is bright.
-fn rank(ink: &Ink) -> (u8, f32) {
-    let rarity = match ink.contact {
-        Contact::Nan => 3,
-        Contact::Tangent => 2,
-        Contact::TangentBehind => 1,
-        Contact::Miss | Contact::SecantBehind | Contact::Secant | Contact::Inside => 0,
-    };
-    (rarity, ink.brightness)
-}
-
-const fn class_glyph(contact: Contact) -> char {
-    match contact {
-        Contact::Miss => '.',
-        Contact::Nan => NO_ANSWER,
-        Contact::TangentBehind => '~',
-        Contact::SecantBehind => '-',
-        Contact::Tangent => 'o',
-        Contact::Secant => '#',
-        Contact::Inside => '@',
-    }
-}
-
-const fn class_color(contact: Contact) -> Rgb {
-    match contact {
-        Contact::Miss => Rgb(0x60, 0x60, 0x60),
-        Contact::Nan => Rgb(0xd5, 0x5e, 0x00),
-        Contact::TangentBehind => Rgb(0x98, 0x90, 0x28),
-        Contact::SecantBehind => Rgb(0x80, 0x80, 0x80),
-        Contact::Tangent => Rgb(0xf0, 0xe4, 0x42),
-        Contact::Secant => Rgb(0x56, 0xb4, 0xe9),
-        Contact::Inside => Rgb(0x00, 0x9e, 0x73),
-    }
-}
-
-/// In the class view a half block is whole for a secant, its left quarter for a tangent, its right
-/// quarter for what is behind.
-fn quarters(ink: Option<Ink>) -> usize {
-    match ink.map(|i| i.contact) {
-        Some(Contact::Secant | Contact::Inside) => 0b11,
-        Some(Contact::Tangent | Contact::TangentBehind) => 0b10,
-        Some(Contact::SecantBehind) => 0b01,
-        Some(Contact::Miss | Contact::Nan) | None => 0b00,
     }
 }
 
@@ -368,6 +266,7 @@ const fn ascii_for_dots(dots: u32) -> char {
 mod tests {
     use glam::Vec3;
 
+    use super::super::ink::class_quarters;
     use super::*;
     use crate::geometry::Sphere;
     use crate::method::Method;
@@ -443,7 +342,7 @@ mod tests {
                     ' ' => false,
                     other => panic!("{other}"),
                 };
-                assert_eq!(shows, frame.hit(x, y).is_some(), "{depth:?} ({x}, {y})");
+                assert_eq!(shows, frame.seen(x, y).is_some(), "{depth:?} ({x}, {y})");
                 assert_eq!(
                     cell.fg.is_some(),
                     depth != ColorDepth::None && cell.glyph != ' '
@@ -457,14 +356,7 @@ mod tests {
         let (frame, image) = drawn(View::Class, Style::Half, ColorDepth::None);
         for (x, y) in pixels(&frame) {
             let glyph = cell_at(&image, Style::Half, x, y).glyph;
-            let of = |contact| {
-                quarters(Some(Ink {
-                    contact,
-                    brightness: 1.0,
-                    color: None,
-                }))
-            };
-            let shown = of(frame.contact(x, y));
+            let shown = class_quarters(frame.contact(x, y));
             let fits = |other: usize| match y % 2 {
                 0 => quadrants(shown, other) == glyph,
                 _ => quadrants(other, shown) == glyph,
@@ -479,6 +371,7 @@ mod tests {
 
     #[test]
     fn braille_has_a_dot_for_each_hit_and_without_colour_for_each_edge() {
+        let scene = scene();
         let dot = |image: &Image, x: u32, y: u32| {
             let glyph = cell_at(image, Style::Braille, x, y).glyph;
             let (_, _, bit) = DOTS[DOTS
@@ -489,30 +382,31 @@ mod tests {
         };
         let (frame, image) = drawn(View::Shade, Style::Braille, ColorDepth::Ansi256);
         for (x, y) in pixels(&frame) {
-            assert_eq!(dot(&image, x, y), frame.hit(x, y).is_some());
+            assert_eq!(dot(&image, x, y), frame.seen(x, y).is_some());
         }
         let (frame, image) = drawn(View::Shade, Style::Braille, ColorDepth::None);
         for (x, y) in pixels(&frame) {
-            assert!(!dot(&image, x, y) || frame.hit(x, y).is_some());
-            assert!(dot(&image, x, y) || !frame.outline(x, y));
+            assert!(!dot(&image, x, y) || frame.seen(x, y).is_some());
+            assert!(dot(&image, x, y) || !frame.outline(&scene, x, y));
         }
         let (frame, image) = drawn(View::Outline, Style::Braille, ColorDepth::True);
         for (x, y) in pixels(&frame) {
-            assert_eq!(dot(&image, x, y), frame.outline(x, y));
+            assert_eq!(dot(&image, x, y), frame.outline(&scene, x, y));
         }
     }
 
     #[test]
     fn an_edge_belongs_to_the_nearer_sphere() {
-        let frame = frame_of(&scene(), View::Outline);
-        for (x, y) in pixels(&frame).filter(|&(x, y)| frame.outline(x, y)) {
-            let here = frame.hit(x, y).expect("an edge is of a hit");
+        let scene = scene();
+        let frame = frame_of(&scene, View::Outline);
+        for (x, y) in pixels(&frame).filter(|&(x, y)| frame.outline(&scene, x, y)) {
+            let here = frame.hit(&scene, x, y).expect("an edge is of a hit");
             let around = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)];
-            let beyond = |(x, y)| frame.hit(x, y).is_none_or(|there| there.t > here.t);
+            let beyond = |(x, y)| frame.hit(&scene, x, y).is_none_or(|there| there.t > here.t);
             assert!(around.into_iter().any(beyond), "({x}, {y})");
         }
         // Where the two meet on the row through both, the farther one has no edge of its own.
-        assert!(frame.outline(4, 7) && !frame.outline(3, 7));
+        assert!(frame.outline(&scene, 4, 7) && !frame.outline(&scene, 3, 7));
     }
 
     #[test]
@@ -549,7 +443,7 @@ mod tests {
             name: None,
             color: None,
         }];
-        for view in View::ALL {
+        for view in View::ALL.into_iter().filter(|v| *v != View::Stage) {
             let frame = frame_of(&scene, view);
             for style in Style::ALL {
                 let mut image = Image::new();

@@ -3,18 +3,32 @@
 //! A [`Frame`] holds what is known of each pixel; an [`Image`] holds the cells that show it in a
 //! [`Style`]. Both are kept and filled anew from frame to frame.
 
+#![expect(
+    clippy::inline_always,
+    reason = "a formula in lanes vectorises only if all of it is in one place"
+)]
+
 mod bounds;
 mod color;
+mod cover;
+mod field;
+mod finish;
 mod frame;
 mod image;
+mod ink;
+mod lanes;
+mod layer;
+mod nearest;
+mod plan;
 mod ramp;
 mod shade;
 mod style;
 mod view;
 
 pub use color::{AnsiColor, ColorDepth, color_of};
-pub use frame::{Contact, Frame, Hit};
+pub use frame::{Frame, Hit, Lost};
 pub use image::{Cell, Image, Look};
-pub use shade::headlight;
+pub use layer::Contact;
+pub use plan::{Counts, Line, Plan};
 pub use style::{CELL_ASPECT, Style, fit};
 pub use view::View;

@@ -141,7 +141,7 @@ fn unit(v: DVec3) -> Option<DVec3> {
 }
 
 /// A number of pixels across and down.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub struct Size {
     /// Pixels in a row.
     pub width: u32,

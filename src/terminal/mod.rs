@@ -1,94 +1,86 @@
-//! The real terminal: enter, leave, restore, and the loop between events and the screen.
+//! The terminal: what it can do; taken over and given back; the loop between it and the explorer.
 //!
-//! Nothing is drawn unless something changed: the loop waits for an event, takes what else is
-//! queued, updates, and draws once.
+//! Nothing is drawn unless something changed: the loop waits for input, takes what else is queued,
+//! updates, and draws once, as soon as the terminal has dealt with what was drawn before.
 
 mod capability;
+mod clipboard;
+mod device;
+mod keyboard;
+mod pace;
+mod painter;
 mod session;
+mod signals;
 
 use std::io;
-use std::time::Duration;
 
-use ratatui::Terminal;
-use ratatui::backend::Backend;
-use ratatui::crossterm::event::{self, Event};
+use ratatui::crossterm::event::Event;
 
 pub use capability::{Capability, Unfit};
+pub use keyboard::{Heard, Keyboard};
+pub use painter::{Limits, Painter};
 pub use session::Session;
 
-use crate::explorer::Explorer;
+use crate::explorer::{Explorer, Request};
 
 /// Most events taken before a drawing, so that a flood of input can't keep the screen from it.
 const MOST_AT_ONCE: usize = 512;
+/// The exit status of who lost the terminal: 128 and the number of SIGHUP.
+const HUNG_UP: u8 = 129;
 
-/// Where events come from: a terminal, a test, a connection.
-pub trait Events {
-    /// Waits for the next event.
-    fn wait(&mut self) -> io::Result<Event>;
-    /// Whether [`Events::wait`] would answer at once.
-    fn is_pending(&mut self) -> io::Result<bool>;
+/// What comes in from outside.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Input {
+    /// A key, the mouse, a paste.
+    Event(Event),
+    /// The screen has another size, or shows something else.
+    Redraw,
+    /// It is over, with this exit status, whatever the person wants.
+    End(u8),
 }
 
-/// The events of the terminal that this process runs in.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct TerminalEvents;
-
-impl Events for TerminalEvents {
-    fn wait(&mut self) -> io::Result<Event> {
-        event::read()
-    }
-
-    fn is_pending(&mut self) -> io::Result<bool> {
-        event::poll(Duration::ZERO)
-    }
-}
-
-/// A screen that can show the explorer's state as a unit.
-pub trait Screen {
-    /// What drawing can fail with.
-    type Error;
+/// One person's terminal, near or far: where input comes from and frames go to.
+pub trait Link {
+    /// Waits for input and, if a frame is `due`, for room for it.
+    fn wait(&mut self, due: bool) -> io::Result<()>;
+    /// What came in next, if anything has.
+    fn next(&mut self) -> io::Result<Option<Input>>;
+    /// Whether a frame would go out at once.
+    fn is_ready(&mut self) -> bool;
     /// Brings the screen up to date.
-    fn show(&mut self, explorer: &mut Explorer) -> Result<(), Self::Error>;
+    fn show(&mut self, explorer: &mut Explorer) -> io::Result<()>;
+    /// Puts text into the clipboard of whoever sits there, if their terminal does such things.
+    fn copy(&mut self, text: &str) -> io::Result<()>;
+    /// Stops the explorer, for its shell to take over; false if nobody would let it go on.
+    fn suspend(&mut self) -> bool;
 }
 
-impl<B: Backend> Screen for Terminal<B> {
-    type Error = B::Error;
-
-    fn show(&mut self, explorer: &mut Explorer) -> Result<(), Self::Error> {
-        self.draw(|frame| {
-            let area = frame.area();
-            explorer.prepare(area.width, area.height);
-            if let Some(position) = explorer.draw(frame.buffer_mut()) {
-                frame.set_cursor_position(position);
-            }
-        })?;
-        Ok(())
-    }
-}
-
-/// Runs the explorer until the person leaves; the exit status.
-pub fn run<S: Screen>(
-    explorer: &mut Explorer,
-    screen: &mut S,
-    events: &mut impl Events,
-) -> io::Result<u8>
-where
-    io::Error: From<S::Error>,
-{
-    screen.show(explorer)?;
+/// Runs the explorer until the person leaves or the link ends; the exit status.
+pub fn run(explorer: &mut Explorer, link: &mut impl Link) -> io::Result<u8> {
+    let mut due = true;
     loop {
-        let mut changed = explorer.update(&events.wait()?);
-        for _ in 1..MOST_AT_ONCE {
-            if explorer.ended().is_some() || !events.is_pending()? {
-                break;
+        if due && link.is_ready() {
+            link.show(explorer)?;
+            due = false;
+        }
+        link.wait(due)?;
+        for _ in 0..MOST_AT_ONCE {
+            match link.next()? {
+                Some(Input::Event(event)) => due |= explorer.update(&event),
+                Some(Input::Redraw) => due = true,
+                Some(Input::End(status)) => return Ok(status),
+                None => break,
             }
-            changed |= explorer.update(&events.wait()?);
-        }
-        if let Some(status) = explorer.ended() {
-            return Ok(status);
-        }
-        if changed {
-            screen.show(explorer)?;
+            match explorer.take_request() {
+                Some(Request::Suspend) if !link.suspend() => {
+                    explorer.tell("There is no shell to go back to; q quits.");
+                }
+                Some(Request::Copy(text)) => link.copy(&text)?,
+                Some(Request::Suspend) | None => {}
+            }
+            if let Some(status) = explorer.ended() {
+                return Ok(status);
+            }
         }
     }
 }

@@ -1,83 +1,314 @@
 //! The terminal while the explorer has it: raw, on the alternate screen, and given back as it was
-//! on return, error and panic.
+//! on return, error, panic and signal, and while the process is stopped.
 
-use std::io::{self, BufWriter, Stdout, Write};
+use std::collections::VecDeque;
+use std::io;
+use std::os::fd::AsFd;
 use std::panic;
-use std::sync::Once;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, Once, PoisonError};
+use std::time::{Duration, Instant};
 
-use ratatui::Terminal;
-use ratatui::backend::CrosstermBackend;
-use ratatui::crossterm::cursor::Show;
-use ratatui::crossterm::event::{DisableBracketedPaste, EnableBracketedPaste};
-use ratatui::crossterm::terminal::{
-    BeginSynchronizedUpdate, EndSynchronizedUpdate, EnterAlternateScreen, LeaveAlternateScreen,
-    disable_raw_mode, enable_raw_mode,
-};
-use ratatui::crossterm::{execute, queue};
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use rustix::process::{Signal, kill_current_process_group};
 
-use super::Screen;
+use super::clipboard;
+use super::device::Device;
+use super::keyboard::{Heard, Keyboard};
+use super::pace::{Pace, QUERY};
+use super::painter::{Limits, Painter};
+use super::signals::{self, Asked, Signals};
+use super::{HUNG_UP, Input, Link};
 use crate::explorer::Explorer;
 
-/// Holds a whole frame of a large screen, so that each is one write.
-const FRAME_BYTES: usize = 1 << 20;
+/// The alternate screen; pastes marked as such.
+const ENTER: &[u8] = b"\x1b[?1049h\x1b[?2004h";
+/// All that may have been turned on, the screen cleared for terminals without an alternate one.
+const LEAVE: &[u8] =
+    b"\x1b[?2026l\x1b[?1006l\x1b[?1000l\x1b[?2004l\x1b[m\x1b[2J\x1b[H\x1b[?1049l\x1b[?25h";
+/// Presses and the wheel are reported, motion is not.
+const MOUSE_ON: &[u8] = b"\x1b[?1000h\x1b[?1006h";
+const MOUSE_OFF: &[u8] = b"\x1b[?1006l\x1b[?1000l";
 
-/// Whether the terminal is ours now, so that it is given back once.
-static ENTERED: AtomicBool = AtomicBool::new(false);
+/// How long the rest of what has begun may take, over a network too.
+const REST_PATIENCE: Duration = Duration::from_millis(50);
+/// How long a terminal that does not read may hold up the end.
+const END_PATIENCE: Duration = Duration::from_millis(500);
+/// How long the answer to the last query may hold up the end.
+const LAST_ANSWER: Duration = Duration::from_millis(200);
+/// What one read takes: some hundred keys.
+const READ_BYTES: usize = 1024;
+
+/// The terminal that is ours now, for a panic to give back.
+static HELD: Mutex<Option<Arc<Device>>> = Mutex::new(None);
 
 /// The terminal of this process, ours until this is dropped.
 #[derive(Debug)]
 pub struct Session {
-    terminal: Terminal<CrosstermBackend<BufWriter<Stdout>>>,
+    device: Arc<Device>,
+    signals: Signals,
+    keyboard: Keyboard,
+    /// When what has begun on the keyboard is taken as it stands.
+    settles: Option<Instant>,
+    /// What came in and has not been asked for.
+    inputs: VecDeque<Input>,
+    painter: Painter,
+    canvas: Buffer,
+    pace: Pace,
+    /// The frame on its way, and how much of it has been written.
+    frame: Vec<u8>,
+    written: usize,
+    mouse: bool,
+    standing: Standing,
+}
+
+/// Whose the terminal is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Standing {
+    Ours,
+    /// It is as it was found: we have not begun, or have stopped, or ended.
+    GivenBack,
+    /// It is closed.
+    Gone,
 }
 
 impl Session {
     /// Takes the terminal over.
     pub fn enter() -> io::Result<Self> {
         restore_on_panic();
-        enable_raw_mode()?;
-        ENTERED.store(true, Ordering::SeqCst);
-        let mut out = BufWriter::with_capacity(FRAME_BYTES, io::stdout());
-        let entered = queue!(out, EnterAlternateScreen, EnableBracketedPaste)
-            .and_then(|()| Terminal::new(CrosstermBackend::new(out)));
-        if entered.is_err() {
-            leave();
+        let mut session = Self {
+            device: Arc::new(Device::open()?),
+            signals: Signals::take()?,
+            keyboard: Keyboard::default(),
+            settles: None,
+            inputs: VecDeque::new(),
+            painter: Painter::default(),
+            canvas: Buffer::default(),
+            pace: Pace::default(),
+            frame: Vec::new(),
+            written: 0,
+            mouse: false,
+            standing: Standing::GivenBack,
+        };
+        session.take_over()?;
+        Ok(session)
+    }
+
+    /// Makes the terminal ours, whatever state it is in.
+    fn take_over(&mut self) -> io::Result<()> {
+        self.device.make_raw()?;
+        *held() = Some(Arc::clone(&self.device));
+        self.standing = Standing::Ours;
+        self.frame.clear();
+        self.frame.extend_from_slice(ENTER);
+        self.written = 0;
+        self.mouse = false;
+        self.painter.forget();
+        self.pace.forget();
+        self.flush()
+    }
+
+    /// Gives the terminal back as it was found.
+    fn give_back(&mut self) {
+        if self.standing == Standing::Ours {
+            // Half a frame would end in half a sequence.
+            let rest = &self.frame[self.written..];
+            self.device.write_within(rest, END_PATIENCE);
+            self.device.write_within(LEAVE, END_PATIENCE);
+            self.await_answers();
+            self.standing = Standing::GivenBack;
         }
-        Ok(Self { terminal: entered? })
+        *held() = None;
+        // Where the terminal is gone, so are its modes.
+        let _ = self.device.restore_modes();
+    }
+
+    /// Waits for the answers to what was asked: later they would be typed at the shell.
+    fn await_answers(&mut self) {
+        let deadline = Instant::now() + LAST_ANSWER;
+        while self.pace.is_waiting() {
+            let left = deadline.saturating_duration_since(Instant::now());
+            if left.is_zero() || self.look(Some(left)).is_err() {
+                return self.device.discard_input();
+            }
+        }
+    }
+
+    /// Writes what the terminal takes of the frame.
+    fn flush(&mut self) -> io::Result<()> {
+        while self.written < self.frame.len() {
+            match self.device.write(&self.frame[self.written..])? {
+                Some(0) => return Ok(()),
+                Some(n) => self.written += n,
+                None => {
+                    self.hang_up();
+                    break;
+                }
+            }
+        }
+        self.frame.clear();
+        self.written = 0;
+        Ok(())
+    }
+
+    fn hang_up(&mut self) {
+        if self.standing != Standing::Gone {
+            self.standing = Standing::Gone;
+            self.inputs.push_back(Input::End(HUNG_UP));
+        }
+    }
+
+    /// Waits at most that long, without end if none is given, and takes in what there is.
+    fn look(&mut self, patience: Option<Duration>) -> io::Result<()> {
+        let unwritten = !self.frame.is_empty();
+        let ready = self
+            .device
+            .wait(self.signals.as_fd(), unwritten, patience)?;
+        if ready.gone {
+            self.hang_up();
+            return Ok(());
+        }
+        if ready.signal {
+            for asked in self.signals.pending().collect::<Vec<_>>() {
+                self.heed(asked)?;
+            }
+        }
+        if ready.input {
+            self.listen()?;
+        } else if self.settles.is_some_and(|at| at <= Instant::now()) {
+            let mut heard = VecDeque::new();
+            self.keyboard.settle(&mut heard);
+            self.take_in(heard);
+        }
+        if ready.output {
+            self.flush()?;
+        }
+        Ok(())
+    }
+
+    /// Does what a signal asks for.
+    fn heed(&mut self, asked: Asked) -> io::Result<()> {
+        match asked {
+            Asked::End(status) => self.inputs.push_back(Input::End(status)),
+            Asked::Resize => {
+                // What a terminal makes of its cells when it grows or shrinks is its own affair.
+                self.painter.forget();
+                self.inputs.push_back(Input::Redraw);
+            }
+            // Who nobody waits for would never go on.
+            Asked::Stop if !Device::can_stop() => {}
+            Asked::Stop => {
+                self.give_back();
+                signals::stop()?;
+            }
+            Asked::GoOn => {
+                self.take_over()?;
+                self.inputs.push_back(Input::Redraw);
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads what was typed.
+    fn listen(&mut self) -> io::Result<()> {
+        let mut bytes = [0; READ_BYTES];
+        let n = self.device.read(&mut bytes)?;
+        if n == 0 {
+            self.hang_up();
+        }
+        let mut heard = VecDeque::new();
+        self.keyboard.feed(&bytes[..n], &mut heard);
+        self.take_in(heard);
+        Ok(())
+    }
+
+    fn take_in(&mut self, heard: VecDeque<Heard>) {
+        let now = Instant::now();
+        self.settles = self.keyboard.is_waiting().then(|| now + REST_PATIENCE);
+        for what in heard {
+            match what {
+                Heard::Event(event) => self.inputs.push_back(Input::Event(event)),
+                Heard::Ready => self.pace.answered(),
+            }
+        }
+    }
+
+    /// The next frame: what brings the terminal from what it shows to the explorer's state.
+    fn compose(&mut self, explorer: &mut Explorer) {
+        let (cols, rows) = self.device.size();
+        self.canvas.resize(Rect::new(0, 0, cols, rows));
+        self.canvas.reset();
+        explorer.prepare(cols, rows);
+        let cursor = explorer.draw(&mut self.canvas);
+        let limits = Limits::of(&explorer.options());
+        let bytes = self.painter.paint(&mut self.canvas, cursor, limits);
+        self.frame.extend_from_slice(bytes);
+        if explorer.wants_mouse() != self.mouse {
+            self.mouse = explorer.wants_mouse();
+            let change = if self.mouse { MOUSE_ON } else { MOUSE_OFF };
+            self.frame.extend_from_slice(change);
+        }
     }
 }
 
-impl Screen for Session {
-    type Error = io::Error;
+impl Link for Session {
+    fn wait(&mut self, due: bool) -> io::Result<()> {
+        if !self.inputs.is_empty() {
+            return Ok(());
+        }
+        let now = Instant::now();
+        let due = if due { self.pace.due(now) } else { None };
+        let until = [due, self.settles].into_iter().flatten().min();
+        self.look(until.map(|at| at.saturating_duration_since(now)))
+    }
+
+    fn next(&mut self) -> io::Result<Option<Input>> {
+        if self.inputs.is_empty() {
+            self.look(Some(Duration::ZERO))?;
+        }
+        Ok(self.inputs.pop_front())
+    }
+
+    fn is_ready(&mut self) -> bool {
+        self.standing == Standing::Ours
+            && self.frame.is_empty()
+            && self.pace.due(Instant::now()).is_none()
+    }
 
     fn show(&mut self, explorer: &mut Explorer) -> io::Result<()> {
-        queue!(self.terminal.backend_mut(), BeginSynchronizedUpdate)?;
-        let shown = self.terminal.show(explorer);
-        execute!(self.terminal.backend_mut(), EndSynchronizedUpdate)?;
-        shown
+        self.compose(explorer);
+        if self.frame.is_empty() {
+            return Ok(());
+        }
+        if self.pace.asks() {
+            self.frame.extend_from_slice(QUERY);
+        }
+        self.pace.wrote(self.frame.len(), Instant::now());
+        self.flush()
+    }
+
+    fn copy(&mut self, text: &str) -> io::Result<()> {
+        if self.standing == Standing::Ours && clipboard::is_worth_trying() {
+            self.frame.extend(clipboard::set(text).bytes());
+            self.flush()?;
+        }
+        Ok(())
+    }
+
+    fn suspend(&mut self) -> bool {
+        // The whole job stops, as it would if the terminal had made a signal of the key.
+        Device::can_stop() && kill_current_process_group(Signal::TSTP).is_ok()
     }
 }
 
 impl Drop for Session {
     fn drop(&mut self) {
-        // What is still in the buffer was meant for a screen that is about to go.
-        let _ = self.terminal.backend_mut().flush();
-        leave();
+        self.give_back();
     }
 }
 
-/// Gives the terminal back, once; what fails is left, the rest still tried.
-fn leave() {
-    if ENTERED.swap(false, Ordering::SeqCst) {
-        let _ = execute!(
-            io::stdout(),
-            EndSynchronizedUpdate,
-            DisableBracketedPaste,
-            Show,
-            LeaveAlternateScreen
-        );
-        let _ = disable_raw_mode();
-    }
+fn held() -> MutexGuard<'static, Option<Arc<Device>>> {
+    HELD.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Lets a panic say what it has to say on the screen that the person came from.
@@ -86,7 +317,10 @@ fn restore_on_panic() {
     HOOK.call_once(|| {
         let before = panic::take_hook();
         panic::set_hook(Box::new(move |info| {
-            leave();
+            if let Some(device) = held().take() {
+                device.write_within(LEAVE, END_PATIENCE);
+                let _ = device.restore_modes();
+            }
             before(info);
         }));
     });

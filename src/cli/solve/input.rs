@@ -5,7 +5,7 @@ use glam::Vec3;
 use crate::geometry::{Ray, Sphere};
 
 /// A decimal rounded once to binary32; refused with its text if it is none, or beyond the range.
-pub(super) fn number(field: &[u8]) -> Result<f32, String> {
+pub(in crate::cli) fn number(field: &[u8]) -> Result<f32, String> {
     let field = field.trim_ascii();
     let number = str::from_utf8(field)
         .ok()

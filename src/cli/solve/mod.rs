@@ -9,6 +9,8 @@ mod single;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+pub(super) use input::number;
+
 use super::{INVALID, choice, complain, write_out};
 use crate::method::Method;
 

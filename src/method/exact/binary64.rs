@@ -162,7 +162,7 @@ impl Direct<f64> {
 
 /// A, b, C and D with bounds on the errors of the last three; A is good to 2u of itself.
 ///
-/// Each stage fills one in, and [`roots`] takes it from there.
+/// Each stage fills one in, and `roots` takes it from there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Estimate<T> {
     /// A = d·d.

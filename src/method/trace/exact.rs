@@ -174,19 +174,19 @@ fn root_steps(
 /// A stage after the first: what it found and settled.
 fn stage_step(truth: &Truth, record: &Record, found: &Findings) -> Step {
     let (symbol, why, code) = match found.stage {
-        Stage::Binary64 | Stage::Compensated => (
+        Stage::Binary64 | Stage::Unrounded => (
+            "D, unrounded",
+            "The inputs are small whole numbers: of all of stage 1, only √ and ÷ were rounded.",
+            "Stage::Unrounded => unrounded(input, discriminant),",
+        ),
+        Stage::Compensated => (
             "C, compensated",
             "C cancels: the rounding errors of its differences, squares and sums are added back.",
             "Stage::Compensated => compensated(input, discriminant),",
         ),
-        Stage::Unrounded => (
-            "D, not rounded",
-            "The inputs are small whole numbers of some unit: binary64 rounded nothing so far.",
-            "Stage::Unrounded => unrounded(input, discriminant),",
-        ),
         Stage::Whole => (
             "D, in whole numbers",
-            "The inputs are whole numbers of some unit, and so is everything else, exactly.",
+            "The inputs are whole numbers of 30 bits of some unit: so is everything else, exactly.",
             "Stage::Whole => whole(input, open),",
         ),
         Stage::DoubleDouble => (
@@ -237,7 +237,11 @@ fn answer_steps(truth: &Truth, record: &Record) -> [Step; 2] {
                 "let [t, too] = bounds.map(rounding::round);",
                 "Both ends of what the bound leaves round to this one number.",
             ),
-            Stage::Unrounded | Stage::Compensated => (
+            Stage::Unrounded => (
+                "let settle = |_, bounded| rounding::by_bound(bounded);",
+                "Both ends of what the bound leaves round to this one number.",
+            ),
+            Stage::Compensated => (
                 "settled: rounding::by_bound(bounded),",
                 "Both ends of what the bound leaves round to this one number.",
             ),

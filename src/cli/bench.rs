@@ -1,0 +1,159 @@
+//! `rayscope bench`: error against run time.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, ValueEnum};
+
+use super::progress::{INTERRUPTED, Progress};
+use super::{INVALID, choice, complain, save, write_out};
+use crate::lab::bench::{self, MOST_TIMED, Plan, Report, Sample};
+use crate::lab::timing::{Schedule, SystemClock};
+use crate::lab::{Family, Machine, plot};
+use crate::method::Method;
+use crate::render::{CELL_ASPECT, Style, fit};
+use crate::scene::{Rays, Scene};
+
+/// Measure the methods: wrong answers, errors in ulp, nanoseconds
+#[derive(Debug, Args)]
+pub(super) struct Bench {
+    /// Fewer rays and rounds: seconds instead of minutes
+    #[arg(long)]
+    quick: bool,
+
+    /// What the rays are drawn from; the same seed gives the same rays everywhere
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+
+    /// Only these methods, separated by commas
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = choice(&Method::ALL, Method::name))]
+    method: Vec<Method>,
+
+    /// Only these families of rays, separated by commas
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = family())]
+    family: Vec<&'static Family>,
+
+    /// Instead of families, the rays of this scene's own picture (a file or a built-in name)
+    #[arg(long, value_name = "SCENE", conflicts_with = "family")]
+    scene: Option<String>,
+
+    /// How many rays of each family
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    rays: Option<u32>,
+
+    /// Also draw a chart, as SVG
+    #[arg(long, value_name = "FILE")]
+    plot: Option<PathBuf>,
+
+    /// How the report is written
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+
+    /// Text: also the inputs of the largest errors, in hexadecimal floats
+    #[arg(long)]
+    worst: bool,
+
+    /// Exit with status 1 if a self-check of the timing fails
+    #[arg(long)]
+    strict: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    Text,
+    Csv,
+    Json,
+    Markdown,
+}
+
+fn family() -> impl clap::builder::TypedValueParser<Value = &'static Family> {
+    use clap::builder::{PossibleValuesParser, TypedValueParser};
+    PossibleValuesParser::new(Family::ALL.iter().map(|family| family.name))
+        .try_map(|name| Family::by_name(&name).ok_or("no such family"))
+}
+
+/// Runs what was asked for and ends with the exit status.
+pub(super) fn run(arguments: &Bench) -> ExitCode {
+    let samples = match samples(arguments) {
+        Ok(samples) => samples,
+        Err(sentence) => {
+            complain(sentence);
+            return ExitCode::from(INVALID);
+        }
+    };
+    let mut progress = match Progress::new("bench", samples.len()) {
+        Ok(progress) => progress,
+        Err(error) => {
+            complain(format_args!("signals: {error}"));
+            return ExitCode::from(INVALID);
+        }
+    };
+    let report = bench::run(
+        plan(arguments),
+        &samples,
+        arguments.seed,
+        &SystemClock::new(),
+        |number, name| progress.go_on(number, name),
+    );
+    progress.clear();
+    let drawn = save(arguments.plot.as_deref(), || {
+        plot::work_precision(&report, &Machine::detect())
+    });
+    let written = match in_format(&report, arguments) {
+        Ok(text) => write_out(&text),
+        Err(sentence) => {
+            complain(sentence);
+            ExitCode::from(INVALID)
+        }
+    };
+    if progress.interrupted() {
+        ExitCode::from(INTERRUPTED)
+    } else if arguments.strict && !report.times_trusted() || drawn.is_err() {
+        ExitCode::from(INVALID)
+    } else {
+        written
+    }
+}
+
+fn plan(arguments: &Bench) -> Plan<'_> {
+    Plan {
+        methods: if arguments.method.is_empty() {
+            &Method::ALL
+        } else {
+            &arguments.method
+        },
+        schedule: Schedule {
+            rounds: if arguments.quick { 15 } else { 101 },
+            seed: arguments.seed,
+        },
+    }
+}
+
+fn samples(arguments: &Bench) -> Result<Vec<Sample>, String> {
+    let usual = if arguments.quick { 2048 } else { 16_384 };
+    let rays = arguments.rays.map_or(usual, |rays| rays as usize);
+    if let Some(name) = &arguments.scene {
+        let (scene, _) = Scene::open(name).map_err(|e| e.to_string())?;
+        let (size, shape) = fit(&scene, Style::Half, 80, 24, CELL_ASPECT);
+        let own = Rays::new(&scene.camera, size, shape);
+        let most = rays.max(MOST_TIMED);
+        return Ok(vec![Sample::of_scene(&scene, &own, arguments.seed, most)]);
+    }
+    let chosen: Vec<&Family> = if arguments.family.is_empty() {
+        Family::ALL.iter().collect()
+    } else {
+        arguments.family.clone()
+    };
+    let sample = |family: &Family| Sample::of_family(family, arguments.seed, rays);
+    Ok(chosen.into_iter().map(sample).collect())
+}
+
+fn in_format(report: &Report, arguments: &Bench) -> Result<String, String> {
+    let machine = Machine::detect();
+    match arguments.format {
+        Format::Text => Ok(bench::table(report, &machine, arguments.worst)),
+        Format::Markdown => Ok(bench::markdown(report, &machine)),
+        Format::Csv => bench::csv(report).map_err(|e| format!("CSV: {e}")),
+        Format::Json => bench::json(report, &machine).map_err(|e| format!("JSON: {e}")),
+    }
+}

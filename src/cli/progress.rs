@@ -1,0 +1,63 @@
+//! How a long run tells how far it is, and how Ctrl-C ends it.
+
+use std::io::{IsTerminal as _, Write as _};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// 128 + SIGINT.
+pub(super) const INTERRUPTED: u8 = 130;
+
+/// Tells on standard error how far a long run is, if that is a terminal, and whether Ctrl-C was
+/// pressed.
+pub(super) struct Progress {
+    what: &'static str,
+    all: usize,
+    shown: Option<usize>,
+    interrupt: Arc<AtomicBool>,
+}
+
+impl Progress {
+    pub fn new(what: &'static str, all: usize) -> std::io::Result<Self> {
+        let interrupt = Arc::new(AtomicBool::new(false));
+        // Pressed twice, Ctrl-C ends the program at once.
+        let signal = signal_hook::consts::SIGINT;
+        let pressed = Arc::clone(&interrupt);
+        signal_hook::flag::register_conditional_shutdown(signal, INTERRUPTED.into(), pressed)?;
+        signal_hook::flag::register(signal, Arc::clone(&interrupt))?;
+        Ok(Self {
+            what,
+            all,
+            shown: None,
+            interrupt,
+        })
+    }
+
+    /// Notes that the part `number`, from 0, is being worked on; whether to go on with it.
+    pub fn go_on(&mut self, number: usize, name: &str) -> bool {
+        if self.shown != Some(number) {
+            self.shown = Some(number);
+            let Self { what, all, .. } = self;
+            say(&format!("\r\x1b[K{what}: {name}, {} of {all}", number + 1));
+        }
+        !self.interrupted()
+    }
+
+    pub fn interrupted(&self) -> bool {
+        self.interrupt.load(Ordering::Relaxed)
+    }
+
+    /// Takes the line of progress away.
+    pub fn clear(&self) {
+        if self.shown.is_some() {
+            say("\r\x1b[K");
+        }
+    }
+}
+
+/// Writes on standard error if somebody watches it.
+fn say(text: &str) {
+    let mut err = std::io::stderr();
+    if err.is_terminal() {
+        let _ = err.write_all(text.as_bytes());
+    }
+}

@@ -1,0 +1,139 @@
+//! `rayscope tour`: the explorer, with the tour open.
+
+use std::fmt::Write as _;
+use std::path::Path;
+use std::process::ExitCode;
+use std::sync::Arc;
+
+use clap::Args;
+
+use super::place::Place;
+use super::{INVALID, MISUSED, aspect, choice, complain, explore, write_out};
+use crate::explorer::tour::{self, Chapter};
+use crate::explorer::{Explorer, Opening, Options};
+use crate::method::Method;
+use crate::render::{Style, View};
+use crate::scene::{Builtin, Source};
+
+/// Walk through the tutorial, page by page, on live scenes
+#[derive(Debug, Args)]
+pub(super) struct Tour {
+    /// A chapter's name or number; or the file of a chapter, or a folder of them, of your own
+    #[arg(default_value = "1")]
+    chapter: String,
+
+    /// The page to begin with, from 1
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    page: usize,
+
+    /// List the chapters instead
+    #[arg(long)]
+    list: bool,
+
+    /// How the quadratic is evaluated [default: as the page has it]
+    #[arg(long, value_parser = choice(&Method::ALL, Method::name))]
+    method: Option<Method>,
+
+    /// How samples become characters [default: as the page has it]
+    #[arg(long, value_parser = choice(&Style::ALL, Style::name))]
+    style: Option<Style>,
+
+    /// What the picture shows [default: as the page has it]
+    #[arg(long, value_parser = choice(&View::ALL, View::name))]
+    view: Option<View>,
+
+    /// Height of a character cell over its width
+    #[arg(long, default_value_t = Options::default().aspect, value_parser = aspect)]
+    aspect: f64,
+
+    #[command(flatten)]
+    place: Place,
+}
+
+/// Opens the tour, or lists its chapters.
+pub(super) fn run(arguments: &Tour) -> ExitCode {
+    if arguments.list {
+        return match chapters(&arguments.chapter) {
+            Ok((chapters, _)) => write_out(&list(&chapters)),
+            Err(sentence) => {
+                complain(sentence);
+                INVALID.into()
+            }
+        };
+    }
+    match opened(arguments, explore::fitted) {
+        Ok(mut explorer) => explore::converse(&mut explorer),
+        Err((status, sentence)) => {
+            complain(sentence);
+            status.into()
+        }
+    }
+}
+
+/// The explorer on the page that is asked for; else an exit status and the reason.
+pub(super) fn opened(
+    arguments: &Tour,
+    fit: impl FnOnce(Options) -> Result<Options, (u8, String)>,
+) -> Result<Explorer, (u8, String)> {
+    let (chapters, at) = chapters(&arguments.chapter).map_err(|e| (INVALID, e))?;
+    let (page, pages) = (arguments.page, chapters[at].pages.len());
+    if !(1..=pages).contains(&page) {
+        let sentence = format!("--page {page}: expected a page from 1 to {pages}");
+        return Err((MISUSED, sentence));
+    }
+    let options = fit(Options {
+        aspect: arguments.aspect,
+        ..Options::default()
+    })?;
+    let own = Builtin::default();
+    let mut explorer = Explorer::new(own.scene(), &Source::Builtin(own), options);
+    explorer.start_tour(chapters, at, page - 1);
+    let opening = Opening {
+        method: arguments.method,
+        style: arguments.style,
+        view: arguments.view,
+        ..arguments.place.opening()
+    };
+    explorer.set_out(&opening).map_err(|e| (MISUSED, e))?;
+    Ok(explorer)
+}
+
+/// All chapters, and the place of the one that is asked for.
+fn chapters(word: &str) -> Result<(Arc<[Chapter]>, usize), String> {
+    let chapters = tour::builtin();
+    if let Some(at) = tour::find(&chapters, word) {
+        return Ok((chapters, at));
+    }
+    let path = Path::new(word);
+    if path.exists() {
+        return Ok((tour::load(path).map_err(|e| e.to_string())?, 0));
+    }
+    let names: Vec<_> = chapters.iter().map(|c| c.name.as_str()).collect();
+    Err(format!(
+        "{word}: found no such chapter and no such file, expected 1 to {}, or one of {}",
+        names.len(),
+        names.join(", ")
+    ))
+}
+
+fn list(chapters: &[Chapter]) -> String {
+    let widest = chapters.iter().map(|c| c.name.chars().count()).max();
+    let widest = widest.unwrap_or(0);
+    let mut text = String::new();
+    for (
+        n,
+        Chapter {
+            name, title, pages, ..
+        },
+    ) in (1..).zip(chapters)
+    {
+        let pages = pages.len();
+        let plural = if pages == 1 { "" } else { "s" };
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "{n:>2}  {name:<widest$}  {title} ({pages} page{plural})"
+        );
+    }
+    text
+}

@@ -1,0 +1,477 @@
+//! The curve f(t) = At² + Bt + C: where it is zero, the line meets the sphere.
+//!
+//! ```text
+//!   f │⢇                    ⡜
+//!     │⠈⢆                  ⡰⠁
+//!   0 ■┄┄●┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄○┄┄┄ t
+//!     │    ⠑⢄          ⡠⠊
+//!     │       ⠉⠢⠤⠤×⠤⠤⠔⠉
+//! ```
+
+use super::axis::{Axis, Frame, Place, Stretch};
+use super::canvas::{Canvas, Dash, Ink};
+use super::caption::{Caption, caption_of, caption_room, rounded, show, times};
+use super::mark::{Mark, Sign};
+use super::section::{Anchor, Section, Spot};
+use crate::explain::{Glyphs, Line, Role, Subject};
+use crate::geometry::Ray;
+use crate::method::Class;
+
+/// The curve f(t) with its roots and its vertex, t = 0, and the value at `t`.
+///
+/// Exactly `rows` lines of at most `cols` columns. Each axis has a scale of its own, so that the
+/// curve fills the figure; where t = 0 or a root is far off, the t axis has a break.
+pub fn curve(
+    subject: &Subject,
+    ray: &Ray,
+    t: f64,
+    cols: usize,
+    rows: usize,
+    glyphs: Glyphs,
+) -> Vec<Line> {
+    let section = Section::new(ray, &subject.sphere);
+    let caption = caption(&section, subject, t, glyphs);
+    let caption = caption.lines(cols, caption_room(cols, rows));
+    let canvas = Canvas::new(cols, rows.saturating_sub(caption.len()), glyphs);
+    let view = View::of(&section, &canvas);
+    let plot = Plot {
+        canvas,
+        view,
+        section,
+    };
+    let mut lines = plot.draw(t).lines();
+    lines.extend(caption);
+    lines.resize(rows, Line::new(0));
+    lines
+}
+
+/// What part of the curve is seen, and how large.
+///
+/// t is measured along the line, in lengths s = t·|d|; then f = s² + … has no factor A.
+#[derive(Debug, Clone)]
+struct View {
+    axis: Axis,
+    /// Height of f = 0, in dots from the top.
+    base: f64,
+    /// Dots a unit of f.
+    up: f64,
+}
+
+impl View {
+    fn of(section: &Section, canvas: &Canvas) -> Self {
+        let frame = frame(canvas);
+        let whole = Self::around_vertex(section, frame);
+        if whole.tells_apart(section, frame) {
+            return whole;
+        }
+        Self::around_start(section, frame).unwrap_or(whole)
+    }
+
+    /// Both roots and the vertex, and t = 0: beyond a break if it is far.
+    fn around_vertex(section: &Section, frame: Frame) -> Self {
+        let start = -section.foot;
+        let reach = [section.half, start.abs(), section.radius, section.speed]
+            .into_iter()
+            .find(|&length| length > 0.0)
+            .unwrap_or(1.0);
+        let wide = 1.6 * reach;
+        let mut stretch = Stretch {
+            anchor: Anchor::Foot,
+            from: -wide,
+            to: wide,
+        };
+        let mut breaks = [None, None];
+        if start.abs() <= 4.0 * reach {
+            stretch.from = stretch.from.min(start - 0.3 * reach);
+            stretch.to = stretch.to.max(start + 0.3 * reach);
+        } else if start < 0.0 {
+            breaks[0] = Some(Anchor::Start);
+        } else {
+            breaks[1] = Some(Anchor::Start);
+        }
+        let axis = Axis::lay(frame, breaks[0], stretch, breaks[1], f64::INFINITY);
+        let at_start = section.power(Anchor::Start, 0.0);
+        let square = reach * reach;
+        let mut top = wide * wide
+            - if section.class == Class::Miss {
+                -square
+            } else {
+                0.0
+            };
+        let mut bottom = -0.15 * top;
+        if section.class == Class::Secant {
+            top = 1.6 * square;
+            bottom = -square;
+        }
+        // f(0) = C belongs to the picture unless it would squeeze all else.
+        if at_start <= 4.0 * square {
+            top = top.max(1.1 * at_start);
+        }
+        Self::upright(frame, axis, bottom, top)
+    }
+
+    /// t = 0 and the root nearest to it, the other root beyond a break.
+    fn around_start(section: &Section, frame: Frame) -> Option<Self> {
+        let root = section.nearest_root()?;
+        let start = section.offset(Spot::At(Anchor::Start), root);
+        let around = start.abs();
+        let stretch = Stretch {
+            anchor: root,
+            from: start.min(0.0) - around,
+            to: start.max(0.0) + around,
+        };
+        let breaks = match root {
+            _ if section.class == Class::Tangent => [None, None],
+            Anchor::Near => [None, Some(Anchor::Far)],
+            _ => [Some(Anchor::Near), None],
+        };
+        let axis = Axis::lay(frame, breaks[0], stretch, breaks[1], f64::INFINITY);
+        let ends = [stretch.from, stretch.to].map(|offset| section.power(root, offset));
+        let top = ends[0].max(ends[1]);
+        let bottom = ends[0].min(ends[1]).min(-0.15 * top);
+        Some(Self::upright(frame, axis, bottom, top))
+    }
+
+    fn upright(frame: Frame, axis: Axis, bottom: f64, top: f64) -> Self {
+        let up = frame.height() / (top - bottom);
+        Self {
+            axis,
+            base: frame.top + top * up,
+            up,
+        }
+    }
+
+    /// Whether t = 0 and the roots are seen apart where they are.
+    fn tells_apart(&self, section: &Section, frame: Frame) -> bool {
+        let apart = 5.0_f64.min(frame.width() / 8.0);
+        let start = self.axis.place(section, Spot::At(Anchor::Start));
+        let clear = |root| match (start, self.axis.place(section, Spot::At(root))) {
+            (Place::On(start), Place::On(dot)) => (dot - start).abs() >= apart,
+            _ => true,
+        };
+        !section.class.meets()
+            || [Anchor::Near, Anchor::Far]
+                .into_iter()
+                .all(|root| section.position(Spot::At(root)) == 0.0 || clear(root))
+    }
+
+    fn height(&self, f: f64) -> f64 {
+        self.base - f * self.up
+    }
+}
+
+/// The room for shapes: margins are for labels.
+fn frame(canvas: &Canvas) -> Frame {
+    let (width, height) = canvas.size();
+    let side = (width / 16.0).min(4.0);
+    let edge = (height / 8.0).min(5.0);
+    Frame {
+        left: side,
+        right: width - side,
+        top: edge.min(3.0),
+        bottom: height - edge,
+    }
+}
+
+/// What the curve is drawn with.
+struct Plot {
+    canvas: Canvas,
+    view: View,
+    section: Section,
+}
+
+impl Plot {
+    fn draw(mut self, t: f64) -> Canvas {
+        self.axes();
+        self.curve();
+        let marks = self.marks(t);
+        self.canvas.write_marks(marks);
+        self.numbers();
+        self.canvas
+    }
+
+    fn place(&self, spot: Spot) -> Option<f64> {
+        match self.view.axis.place(&self.section, spot) {
+            Place::On(dot) => Some(dot),
+            _ => None,
+        }
+    }
+
+    fn axes(&mut self) {
+        let (width, height) = self.canvas.size();
+        let base = self.view.base;
+        self.canvas
+            .line((0.0, base), (width, base), Ink::Axis, Dash::DOTTED);
+        if let Some(start) = self.place(Spot::At(Anchor::Start)) {
+            self.canvas
+                .line((start, 0.0), (start, height), Ink::Axis, Dash::DOTTED);
+        }
+        for (before, after) in self.view.axis.breaks() {
+            let middle = f64::midpoint(before.right, after.left);
+            let room = after.left - before.right;
+            self.canvas.zigzag((middle, base), room, Ink::Axis);
+        }
+    }
+
+    /// f, dotted for t < 0; steep parts are filled in between columns.
+    fn curve(&mut self) {
+        for (piece, left, right) in self.view.axis.drawn(self.canvas.size().0) {
+            let origin = self.section.position(Spot::At(piece.anchor));
+            let step = self.canvas.grain().0;
+            let mut previous = None;
+            let mut x = left + step / 2.0;
+            let mut count = 0;
+            while x < right {
+                let offset = self.view.axis.offset(&piece, x);
+                let y = self.view.height(self.section.power(piece.anchor, offset));
+                let behind = origin + offset < 0.0;
+                let ink = if behind { Ink::Behind } else { Ink::Curve };
+                if !behind || Dash::DOTTED.draws(count) {
+                    self.column(x, previous.unwrap_or(y), y, ink);
+                }
+                previous = Some(y);
+                count += 1;
+                x += step;
+            }
+        }
+    }
+
+    /// The curve between two columns: half of the rise on either side.
+    fn column(&mut self, x: f64, from: f64, to: f64, ink: Ink) {
+        let step = self.canvas.grain();
+        if (to - from).abs() <= step.1 {
+            self.canvas.plot((x, to), ink);
+            return;
+        }
+        let middle = f64::midpoint(from, to);
+        self.canvas
+            .line((x - step.0, from), (x - step.0, middle), ink, Dash::SOLID);
+        self.canvas.line((x, middle), (x, to), ink, Dash::SOLID);
+    }
+
+    /// The points that have names; an arrow for one that lies above or below the figure.
+    fn marks(&self, t: f64) -> Vec<Mark> {
+        let section = &self.section;
+        let (width, height) = self.canvas.size();
+        let [right, bottom] = [width, height].map(|edge| (edge - 1.0).max(0.0));
+        let mark = |name, spot, sign, ink| {
+            let on = self.view.axis.on(section, spot);
+            let f = match on {
+                Some((piece, _)) => section.power(piece.anchor, section.offset(spot, piece.anchor)),
+                None => section.value(section.position(spot)),
+            };
+            let y = self.view.height(f);
+            let (x, sign) = match self.view.axis.place(section, spot) {
+                Place::Before => (0.0, Sign::Before),
+                Place::After => (right, Sign::After),
+                Place::On(x) | Place::Break(x) if y < 0.0 => (x, Sign::Above),
+                Place::On(x) | Place::Break(x) if y > bottom => (x, Sign::Below),
+                Place::On(x) | Place::Break(x) => (x, sign),
+            };
+            Mark {
+                name,
+                dot: (x, y.clamp(0.0, bottom)),
+                at: (section.position(spot), f),
+                sign,
+                ink,
+            }
+        };
+        let root = |name, anchor| {
+            let seen = section.visible() == Some(anchor);
+            let sign = if seen { Sign::Seen } else { Sign::Unseen };
+            mark(name, Spot::At(anchor), sign, Ink::Root)
+        };
+        let point = |name, anchor, sign| mark(name, Spot::At(anchor), sign, Ink::Point);
+        let mut marks = vec![point("C", Anchor::Start, Sign::Eye)];
+        match section.class {
+            Class::Secant => marks.extend([
+                root("B", Anchor::Near),
+                root("B′", Anchor::Far),
+                point("V", Anchor::Foot, Sign::Cross),
+            ]),
+            Class::Tangent => marks.push(root("B = B′", Anchor::Near)),
+            Class::Miss | Class::Nan => marks.push(point("V", Anchor::Foot, Sign::Cross)),
+        }
+        if t.is_finite() {
+            let along = Spot::Along(t * section.speed);
+            marks.push(mark("p", along, Sign::Moved, Ink::Scrub));
+        }
+        marks
+    }
+
+    /// The names of the axes, and numbers at the points where they are read off.
+    fn numbers(&mut self) {
+        let base = self.view.base;
+        let (width, _) = self.canvas.size();
+        if let Some((col, row)) = self.canvas.cell_of((width - 1.0, base)) {
+            self.canvas.write(col, row, "▸", Ink::Axis);
+            self.canvas.label((col, row), "t", Ink::Note, true);
+        }
+        let start = self.place(Spot::At(Anchor::Start));
+        if let Some((col, row)) = start.and_then(|x| self.canvas.cell_of((x, 0.0))) {
+            self.canvas.label((col, row), "f", Ink::Note, true);
+        }
+        let [near, _, far] = times(&self.section);
+        let mut ticks = match self.section.class {
+            Class::Secant => vec![(Anchor::Near, near), (Anchor::Far, far)],
+            Class::Tangent => vec![(Anchor::Near, near)],
+            Class::Miss | Class::Nan => Vec::new(),
+        };
+        if ticks.iter().all(|(_, text)| text != "0") {
+            ticks.push((Anchor::Start, "0".into()));
+        }
+        for (anchor, text) in ticks {
+            let x = self.place(Spot::At(anchor));
+            let cell = x.and_then(|x| self.canvas.cell_of((x, base)));
+            // A number that is longer would stand far from its point: the caption has it.
+            if let (Some(cell), true) = (cell, text.chars().count() <= 10) {
+                self.canvas.label(cell, &text, Ink::Note, false);
+            }
+        }
+        if width < WIDE {
+            return;
+        }
+        let [start, foot] = [Anchor::Start, Anchor::Foot].map(|a| self.place(Spot::At(a)));
+        let beside = start.zip(foot).is_some_and(|(x, y)| (x - y).abs() < CLOSE);
+        for (x, anchor) in [(start, Anchor::Start), (foot, Anchor::Foot)] {
+            let f = self.section.power(anchor, 0.0);
+            let cell = x.and_then(|x| self.canvas.cell_of((x, self.view.height(f))));
+            if let (Some(cell), false, false) = (cell, f == 0.0, beside) {
+                let text = rounded(f, 4);
+                self.canvas.label(cell, &text, Ink::Note, false);
+            }
+        }
+    }
+}
+
+/// Points closer than this, in dots, have their values in the caption alone: beside them it would
+/// not be clear which is whose.
+const CLOSE: f64 = 20.0;
+
+/// From this width on, in dots, values of f stand beside their points.
+const WIDE: f64 = 80.0;
+
+fn caption(section: &Section, subject: &Subject, t: f64, glyphs: Glyphs) -> Caption {
+    let mut caption = caption_of(section, subject, glyphs);
+    let (sign, polynomial) = polynomial(section);
+    caption.add("f(t)", sign, &polynomial);
+    let [near, foot, far] = times(section);
+    let lowest = show(section.power(Anchor::Foot, 0.0));
+    match section.class {
+        Class::Secant => {
+            caption.add("B", "at", &format!("t = {near}"));
+            caption.add("B′", "at", &format!("t = {far}"));
+            caption.add("V", "lowest", &format!("f({foot}) = −Δ/4A = {lowest}"));
+        }
+        Class::Tangent => {
+            caption.add("B = B′", "touches 0 at", &format!("t = {near}"));
+            caption.add("", "", "Δ = 0");
+        }
+        Class::Miss | Class::Nan => {
+            caption.add("V", "lowest", &format!("f({foot}) = −Δ/4A = {lowest}"));
+            caption.say(Role::Plain, "above 0: no root");
+        }
+    }
+    if t.is_finite() {
+        let f = section.value(t * section.speed);
+        caption.add("p", "", &format!("f({}) = {}", show(t), show(f)));
+    }
+    if section.class.meets() && section.near < 0.0 {
+        caption.say(Role::Faint, "dotted: t < 0, behind p0");
+    }
+    caption
+}
+
+/// At² + Bt + C in numbers, and whether it equals f or, with fewer digits, nearly so.
+fn polynomial(section: &Section) -> (&'static str, String) {
+    let c = section.power(Anchor::Start, 0.0);
+    let speed = section.speed;
+    let mut text = String::new();
+    let mut sign = "=";
+    for (x, power) in [
+        (speed * speed, "t²"),
+        (-2.0 * section.foot * speed, "t"),
+        (c, ""),
+    ] {
+        let digits = rounded(x.abs(), 6);
+        if x == 0.0 {
+            continue;
+        }
+        // What is off in the last bits alone was rounded here, and is no news.
+        let shown: f64 = digits.replace('−', "-").parse().unwrap_or(f64::NAN);
+        let off = (shown / x.abs() - 1.0).abs();
+        if off.is_nan() || off > 1e-14 {
+            sign = "≈";
+        }
+        if !text.is_empty() {
+            text += if x < 0.0 { " − " } else { " + " };
+        } else if x < 0.0 {
+            text += "−";
+        }
+        if digits != "1" || power.is_empty() {
+            text += &digits;
+        }
+        if digits.contains('e') && !power.is_empty() {
+            text += "·";
+        }
+        text += power;
+    }
+    (sign, text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::explain::figure::cases;
+    use proptest::prelude::*;
+
+    fn plot((subject, ray): &(Subject, Ray), cols: usize, rows: usize) -> Plot {
+        let section = Section::new(ray, &subject.sphere);
+        let canvas = Canvas::new(cols, rows, Glyphs::Unicode);
+        let view = View::of(&section, &canvas);
+        Plot {
+            canvas,
+            view,
+            section,
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn roots_lie_on_the_axis_and_the_vertex_at_its_height(
+            case in prop_oneof![cases::whole(), cases::aimed()],
+            cols in 10_usize..160,
+            rows in 4_usize..60,
+        ) {
+            let plot = plot(&case, cols, rows);
+            for mark in plot.marks(f64::NAN) {
+                let f = plot.section.power(Anchor::Foot, 0.0);
+                if mark.ink == Ink::Root {
+                    prop_assert!((mark.dot.1 - plot.view.base).abs() <= 1.0, "{:?}", mark);
+                } else if mark.name == "V" && mark.sign == Sign::Cross {
+                    prop_assert_eq!(mark.at.1, f);
+                    prop_assert_eq!(mark.dot.1, plot.view.height(f));
+                }
+            }
+        }
+
+        #[test]
+        fn the_curve_is_never_flat(case in prop_oneof![cases::whole(), cases::aimed()]) {
+            let mut plot = plot(&case, 56, 16);
+            plot.curve();
+            let rows = plot.canvas.dots().into_iter().map(|(_, y)| y);
+            let (top, bottom) = rows.fold((f64::INFINITY, 0.0_f64), |(t, b), y| (t.min(y), b.max(y)));
+            prop_assert!(bottom - top >= 24.0, "from {} to {}", top, bottom);
+        }
+    }
+
+    #[test]
+    fn the_polynomial_is_that_of_the_tutorial() {
+        let (subject, ray) = cases::named("seed centre");
+        let section = Section::new(&ray, &subject.sphere);
+        assert_eq!(polynomial(&section), ("=", "t² − 40t + 300".to_owned()));
+        let (subject, ray) = cases::named("grazing miss");
+        let section = Section::new(&ray, &subject.sphere);
+        assert_eq!(polynomial(&section), ("≈", "t² − 6t + 9".to_owned()));
+    }
+}

@@ -1,0 +1,25 @@
+//! The mathematics as pictures made of text: the slice through ray and centre, the curve f(t), the
+//! bits of a number.
+//!
+//! Shapes come from the exact quadratic ([`Section`](section::Section)), never from the method
+//! that is shown; where a method answers otherwise, the figure says so. What is drawn on, and how
+//! dots become characters, is in [`canvas`].
+
+mod axis;
+mod bits;
+mod canvas;
+mod caption;
+#[cfg(test)]
+mod cases;
+mod curve;
+mod mark;
+mod section;
+mod slice;
+#[cfg(test)]
+mod tests;
+mod view;
+
+pub use bits::{Float, bits};
+pub use canvas::Ink;
+pub use curve::curve;
+pub use slice::slice;

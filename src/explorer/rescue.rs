@@ -1,0 +1,276 @@
+//! Unsaved work that outlives its terminal: kept in a file when nobody can be asked, and offered
+//! when the same scene is opened again.
+
+use std::fs::{self, DirBuilder};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process;
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
+
+use super::Explorer;
+use super::document::Change;
+use super::mode::{Mode, Question};
+use crate::scene::{Scene, Source};
+
+/// What the line starts with that says which scene a file belongs to.
+const BELONGS: &str = "# scene: ";
+
+/// Where unsaved work is kept.
+#[derive(Debug)]
+pub(super) struct Rescue {
+    pub(super) folder: PathBuf,
+    /// What the scene was opened as: a built-in's name, or the path of a file.
+    scene: String,
+    /// The file that the work at hand was taken from.
+    taken: Option<PathBuf>,
+}
+
+impl Explorer {
+    /// Keeps unsaved work in `folder` if the terminal is lost, and offers what is there already for
+    /// the scene from `source`.
+    pub fn keep_in(&mut self, folder: &Path, source: &Source) {
+        let rescue = Rescue {
+            folder: folder.to_owned(),
+            scene: identity(source),
+            taken: None,
+        };
+        if let Some((path, age)) = rescue.newest() {
+            self.mode = Mode::Ask(Question::Recover { path, age });
+        }
+        self.rescue = Some(rescue);
+    }
+
+    /// To be called when the explorer is over: where unsaved work was kept, if there was any that
+    /// the person has not given up.
+    pub fn finish(&mut self) -> Result<Option<PathBuf>, String> {
+        self.leave_tour();
+        if !self.is_changed() {
+            return Ok(None);
+        }
+        let given_up = self.ended.is_some();
+        let text = self.scene().to_toml();
+        let Some(rescue) = &mut self.rescue else {
+            return Ok(None);
+        };
+        let kept = if given_up {
+            None
+        } else {
+            let kept = rescue.keep(&text);
+            let folder = rescue.folder.display();
+            Some(kept.map_err(|e| format!("{folder}: unsaved work not kept: {e}"))?)
+        };
+        rescue.forget_taken();
+        Ok(kept)
+    }
+
+    /// Takes up kept work, as a change that can be undone.
+    pub(super) fn recover(&mut self, path: &Path) {
+        match Scene::load(path) {
+            Ok(scene) => {
+                self.document.apply(Change::Scene(Box::new(scene)));
+                self.mend_selection();
+                if let Some(rescue) = &mut self.rescue {
+                    rescue.taken = Some(path.to_owned());
+                }
+                self.say("This is what was not saved. u goes back to the scene as it was opened.");
+            }
+            Err(e) => self.warn(e.to_string()),
+        }
+    }
+
+    /// Deletes kept work.
+    pub(super) fn discard(&mut self, path: &Path) {
+        match fs::remove_file(path) {
+            Ok(()) => self.say("It is deleted."),
+            Err(e) => self.warn(format!("{}: not deleted: {e}", path.display())),
+        }
+    }
+
+    /// What was kept is saved now; from here on unsaved work belongs to that file.
+    pub(super) fn saved_as(&mut self, path: &Path) {
+        if let Some(rescue) = &mut self.rescue {
+            rescue.forget_taken();
+            rescue.scene = identity(&Source::File(path.to_owned()));
+        }
+    }
+}
+
+impl Rescue {
+    /// Writes a file that nobody else may read, whole or not at all, and over no other.
+    fn keep(&self, text: &str) -> io::Result<PathBuf> {
+        let mut builder = DirBuilder::new();
+        builder.recursive(true);
+        #[cfg(unix)]
+        std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+        builder.create(&self.folder)?;
+        // A temporary file is its owner's alone from the start.
+        let mut file = tempfile::Builder::new()
+            .prefix(".rayscope-")
+            .tempfile_in(&self.folder)?;
+        write!(
+            file,
+            "# Unsaved work that rayscope kept when its terminal was gone.\n{BELONGS}{}\n\n{text}",
+            self.scene
+        )?;
+        file.as_file().sync_all()?;
+        let since = SystemTime::now().duration_since(UNIX_EPOCH);
+        let since = since.unwrap_or_default().as_nanos();
+        let path = self.folder.join(format!("{since}-{}.toml", process::id()));
+        file.persist_noclobber(&path)?;
+        Ok(path)
+    }
+
+    /// The newest file kept for this scene, and how old it is.
+    fn newest(&self) -> Option<(PathBuf, Duration)> {
+        fs::read_dir(&self.folder)
+            .ok()?
+            .flatten()
+            .map(|entry| entry.path())
+            .filter(|path| path.extension().is_some_and(|e| e == "toml"))
+            .filter(|path| self.owns(path))
+            .filter_map(|path| {
+                let written = fs::metadata(&path).ok()?.modified().ok()?;
+                Some((path, written.elapsed().unwrap_or_default()))
+            })
+            .min_by_key(|(_, age)| *age)
+    }
+
+    fn owns(&self, path: &Path) -> bool {
+        let text = fs::read_to_string(path).unwrap_or_default();
+        let mut lines = text.lines().filter_map(|l| l.strip_prefix(BELONGS));
+        lines.next() == Some(&self.scene)
+    }
+
+    fn forget_taken(&mut self) {
+        if let Some(path) = self.taken.take() {
+            // One that can't be deleted is offered once more, which loses nothing.
+            let _ = fs::remove_file(path);
+        }
+    }
+}
+
+/// What a scene was opened as, in one line.
+fn identity(source: &Source) -> String {
+    match source {
+        Source::Builtin(builtin) => builtin.name().to_owned(),
+        Source::File(path) => {
+            let path = fs::canonicalize(path).unwrap_or_else(|_| path.clone());
+            path.to_string_lossy().replace(['\n', '\r'], "?")
+        }
+    }
+}
+
+/// An age in the largest unit of which there is one: `3 hours`.
+pub(super) fn words(age: Duration) -> String {
+    let seconds = age.as_secs();
+    let (count, unit) = match seconds {
+        0..60 => (seconds, "second"),
+        60..3600 => (seconds / 60, "minute"),
+        3600..86400 => (seconds / 3600, "hour"),
+        _ => (seconds / 86400, "day"),
+    };
+    let plural = if count == 1 { "" } else { "s" };
+    format!("{count} {unit}{plural}")
+}
+
+#[cfg(test)]
+mod tests {
+    use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
+
+    use super::*;
+    use crate::explorer::Options;
+
+    fn opened(folder: &Path, name: &str) -> Explorer {
+        let (scene, source) = Scene::open(name).expect("a scene");
+        let mut explorer = Explorer::new(scene, &source, Options::default());
+        explorer.keep_in(folder, &source);
+        explorer
+    }
+
+    fn press(explorer: &mut Explorer, keys: &str) {
+        for c in keys.chars() {
+            let key = KeyEvent::new(KeyCode::Char(c), KeyModifiers::NONE);
+            explorer.update(&Event::Key(key));
+        }
+    }
+
+    fn files(folder: &Path) -> usize {
+        fs::read_dir(folder).map_or(0, Iterator::count)
+    }
+
+    #[test]
+    fn what_was_not_saved_is_kept_for_its_owner_and_offered_for_its_scene_alone() {
+        let state = tempfile::tempdir().unwrap();
+        let folder = state.path().join("rayscope");
+        let mut lost = opened(&folder, "trio");
+        press(&mut lost, "xg");
+        let kept = lost.finish().unwrap().expect("a file");
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            let mode = |p: &Path| fs::metadata(p).unwrap().permissions().mode() & 0o777;
+            assert_eq!([mode(&kept), mode(&folder)], [0o600, 0o700]);
+        }
+
+        assert_eq!(opened(&folder, "seed").mode, Mode::Normal);
+        let mut again = opened(&folder, "trio");
+        assert!(matches!(again.mode, Mode::Ask(Question::Recover { .. })));
+        press(&mut again, "o");
+        assert_eq!(again.scene().bodies, lost.scene().bodies);
+        assert!(again.is_changed());
+        press(&mut again, "u");
+        assert!(!again.is_changed());
+        assert_eq!(again.finish(), Ok(None));
+        assert!(kept.exists(), "undone is not given up");
+    }
+
+    #[test]
+    fn kept_work_goes_when_it_is_saved_or_given_up_and_not_before() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        let mut lost = opened(folder, "trio");
+        press(&mut lost, "x");
+        lost.finish().unwrap();
+        press(&mut lost, "x");
+        lost.finish().unwrap();
+        assert_eq!(files(folder), 2, "one never replaces another");
+
+        let mut later = opened(folder, "trio");
+        press(&mut later, "nq");
+        assert_eq!(later.ended(), Some(0));
+        assert_eq!(files(folder), 2);
+
+        let mut given_up = opened(folder, "trio");
+        press(&mut given_up, "oqq");
+        assert_eq!(given_up.ended(), Some(0));
+        assert_eq!(given_up.finish(), Ok(None));
+        assert_eq!(files(folder), 1);
+
+        let mut lost_again = opened(folder, "trio");
+        press(&mut lost_again, "ox");
+        lost_again.finish().unwrap();
+        assert_eq!(files(folder), 1, "the new file stands for the old");
+
+        let mut saved = opened(folder, "trio");
+        press(&mut saved, "o");
+        saved.save_as(folder.join("saved.txt"));
+        assert!(!saved.is_changed());
+        assert_eq!(files(folder), 1, "the saved file alone");
+    }
+
+    #[test]
+    fn a_folder_that_can_not_be_made_is_said() {
+        let file = tempfile::NamedTempFile::new().unwrap();
+        let mut lost = opened(&file.path().join("rayscope"), "trio");
+        press(&mut lost, "x");
+        assert!(lost.finish().unwrap_err().contains("not kept"));
+    }
+
+    #[test]
+    fn ages_are_in_words() {
+        let age = |seconds| words(Duration::from_secs(seconds));
+        assert_eq!(age(1), "1 second");
+        assert_eq!(age(7300), "2 hours");
+        assert_eq!(age(90_000), "1 day");
+    }
+}

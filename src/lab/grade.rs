@@ -1,0 +1,168 @@
+//! Somebody else's answers held against the truth, beside the methods of this program.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+
+use super::bench::text::{brief, error_lines, wrapped};
+use super::errors::{Census, Errors, Percentiles, Worst, Wrong};
+use super::hexadecimal::{hexadecimal, numbers};
+use super::{Problem, Reference};
+use crate::method::format::{Signs, binary32};
+use crate::method::{Class, Method, Solution};
+
+/// What somebody says of one ray and sphere.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Claim {
+    /// The class; none for a hit of which is not said whether it is a tangent or a secant.
+    pub class: Option<Class>,
+    /// The smaller root.
+    pub near: f32,
+    /// The larger root.
+    pub far: f32,
+}
+
+impl Claim {
+    /// The claim as an answer: a hit that is not told apart is what the truth makes of it.
+    fn answer(&self, truth: &Reference) -> Solution {
+        let class = self.class.unwrap_or(if truth.class.meets() {
+            truth.class
+        } else {
+            Class::Secant
+        });
+        Solution {
+            class,
+            near: self.near,
+            far: self.far,
+        }
+    }
+}
+
+/// What became of the claims.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Grade {
+    /// The classes of the rays, by the truth.
+    pub census: Census,
+    /// The errors of the claims.
+    pub claimed: Errors,
+    /// The errors of our methods on the same rays.
+    pub ours: Vec<(Method, Errors)>,
+}
+
+/// Holds claims against the truth.
+pub fn grade(problems: &[Problem], claims: &[Claim]) -> Grade {
+    let references = Reference::all(problems);
+    let answers: Vec<Solution> = claims
+        .iter()
+        .zip(&references)
+        .map(|(claim, truth)| claim.answer(truth))
+        .collect();
+    let ours = Method::ALL.map(|method| {
+        let errors = Errors::of(problems, &references, |r, s| method.solve(r, s));
+        (method, errors)
+    });
+    Grade {
+        census: Census::of(&references),
+        claimed: Errors::of_answers(problems, &references, answers),
+        ours: ours.into(),
+    }
+}
+
+/// The name of somebody else's answers.
+const CLAIMED: &str = "given";
+
+/// The grade as a table of 80 columns, and the inputs of the worst and the first wrong claim.
+pub fn table(grade: &Grade) -> String {
+    let ours = grade.ours.iter().map(|(m, errors)| (' ', m.name(), errors));
+    let rows: Vec<_> = std::iter::once(('>', CLAIMED, &grade.claimed))
+        .chain(ours)
+        .collect();
+    let mut out = error_lines(&grade.census, &rows);
+    let errors = &grade.claimed;
+    if let Some((problem, fault)) = &errors.first_wrong {
+        // Writing to a string does not fail.
+        let _ = writeln!(out, "\nfirst wrong answer given: {}", fault.name());
+        out += &input(problem);
+    }
+    if let Some(Worst { problem, error }) = &errors.worst {
+        let _ = writeln!(
+            out,
+            "\nlargest error given: {} ulp, {} for {}",
+            brief(error.ulps),
+            hexadecimal(error.answer),
+            hexadecimal(error.exact)
+        );
+        out += &input(problem);
+    }
+    out
+}
+
+/// A problem in hexadecimal, and as the command that works it out step by step.
+fn input(problem: &Problem) -> String {
+    let x = numbers(problem);
+    let list = |x: &[f32]| {
+        let decimals = x.iter().map(|&x| binary32(x, Signs::Ascii).to_string());
+        decimals.collect::<Vec<_>>().join(",")
+    };
+    let [ox, oy, oz, dx, dy, dz, cx, cy, cz, r] = x.map(hexadecimal);
+    let command = format!(
+        "  rayscope solve --ray={} --sphere={}",
+        list(&x[..6]),
+        list(&x[6..])
+    );
+    format!(
+        "  p0 {ox} {oy} {oz}\n  d  {dx} {dy} {dz}\n  c  {cx} {cy} {cz}\n  r  {r}\n{}",
+        wrapped(&command)
+    )
+}
+
+#[derive(Serialize)]
+struct Document {
+    rayscope: &'static str,
+    #[serde(flatten)]
+    census: Census,
+    results: Vec<Entry>,
+}
+
+#[derive(Serialize)]
+struct Entry {
+    method: &'static str,
+    rays: usize,
+    wrong: Wrong,
+    judged: usize,
+    ulp: Percentiles,
+    worst_input: Option<[String; 10]>,
+    first_wrong: Option<&'static str>,
+    first_wrong_input: Option<[String; 10]>,
+}
+
+impl Entry {
+    fn of(method: &'static str, rays: usize, errors: &Errors) -> Self {
+        let input = |problem: &Problem| numbers(problem).map(hexadecimal);
+        let first = errors.first_wrong.as_ref();
+        Self {
+            method,
+            rays,
+            wrong: errors.wrong,
+            judged: errors.judged,
+            ulp: errors.ulp,
+            worst_input: errors.worst.as_ref().map(|worst| input(&worst.problem)),
+            first_wrong: first.map(|(_, fault)| fault.name()),
+            first_wrong_input: first.map(|(problem, _)| input(problem)),
+        }
+    }
+}
+
+/// The grade as one JSON object; the answers that were given are the method `given`.
+pub fn json(grade: &Grade) -> serde_json::Result<String> {
+    let rays = grade.census.rays;
+    let ours = grade.ours.iter();
+    let document = Document {
+        rayscope: env!("CARGO_PKG_VERSION"),
+        census: grade.census,
+        results: std::iter::once(Entry::of(CLAIMED, rays, &grade.claimed))
+            .chain(ours.map(|(method, errors)| Entry::of(method.name(), rays, errors)))
+            .collect(),
+    };
+    Ok(serde_json::to_string_pretty(&document)? + "\n")
+}

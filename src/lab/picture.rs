@@ -1,0 +1,181 @@
+//! The errors of one picture: pixel by pixel against `exact`, and charted against run time.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, TryLockError};
+
+use super::bench::{self, MOST_TIMED, Plan, Report, Sample};
+use super::errors::Fault;
+use super::stress::bits_lost;
+use super::timing::{Schedule, SystemClock};
+use crate::method::Method;
+use crate::render::{Contact, Frame, Hit, View};
+use crate::scene::{Rays, Scene};
+
+/// What is wrong with the picture at one pixel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PixelError {
+    /// The right sphere is seen, or rightly none; so many bits of the visible root are lost, from 0
+    /// to 24.
+    Bits(f64),
+    /// A sphere where there is none, none where there is one, a tangent taken for a secant or the
+    /// reverse, or no number.
+    Wrong(Fault),
+    /// Another sphere than the one that is nearest.
+    OtherSphere,
+}
+
+/// The errors of a method at each pixel of a picture, row by row, against `exact`: its roots are the
+/// exact ones rounded once, so bits lost are known to half an ulp.
+pub fn pixel_errors(scene: &Scene, rays: &Rays, method: Method) -> Vec<PixelError> {
+    let [found, truth] = [method, Method::Exact].map(|method| {
+        let mut frame = Frame::new();
+        frame.render(scene, rays, method, View::Class);
+        frame
+    });
+    let pixels = (0..rays.size.height).flat_map(|y| (0..rays.size.width).map(move |x| (x, y)));
+    pixels
+        .map(|(x, y)| pixel_error(scene, [&found, &truth], x, y))
+        .collect()
+}
+
+fn pixel_error(scene: &Scene, [found, truth]: [&Frame; 2], x: u32, y: u32) -> PixelError {
+    match (found.hit(scene, x, y), truth.hit(scene, x, y)) {
+        _ if found.contact(x, y) == Contact::Nan => PixelError::Wrong(Fault::NotFinite),
+        (None, None) => PixelError::Bits(0.0),
+        (Some(_), None) => PixelError::Wrong(Fault::FalseHit),
+        (None, Some(_)) => PixelError::Wrong(Fault::FalseMiss),
+        (Some(hit), Some(right)) if hit.body != right.body => PixelError::OtherSphere,
+        (Some(hit), Some(right)) => {
+            let tangent = |frame: &Frame| frame.contact(x, y) == Contact::Tangent;
+            if tangent(found) == tangent(truth) {
+                root_error(hit, right)
+            } else {
+                PixelError::Wrong(Fault::WrongCount)
+            }
+        }
+    }
+}
+
+fn root_error(hit: Hit, right: Hit) -> PixelError {
+    if hit.t == right.t {
+        return PixelError::Bits(0.0);
+    }
+    if !(hit.t.is_finite() && right.t.is_finite()) {
+        return PixelError::Wrong(Fault::NotFinite);
+    }
+    let ulp = f64::from(right.t.next_up()) - f64::from(right.t);
+    let error = (f64::from(hit.t) - f64::from(right.t)).abs();
+    PixelError::Bits(bits_lost(error / ulp))
+}
+
+/// Why there is no chart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NoChart {
+    /// Another chart is being timed in this program: two at once would disturb each other.
+    Busy,
+    /// It was told to stop.
+    Cancelled,
+    /// The picture has no sphere to ask about.
+    Empty,
+}
+
+/// What the questions of a picture with very many are drawn from.
+const SEED: u64 = 1;
+
+/// Charts all methods on the questions that a picture asks; a second or so, to be run on a thread of
+/// its own. `cancel` ends it early.
+pub fn chart(scene: &Scene, rays: &Rays, cancel: &AtomicBool) -> Result<Report, NoChart> {
+    static TIMING: Mutex<()> = Mutex::new(());
+    let _alone = match TIMING.try_lock() {
+        Ok(guard) => guard,
+        Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
+        Err(TryLockError::WouldBlock) => return Err(NoChart::Busy),
+    };
+    let sample = Sample::of_scene(scene, rays, SEED, MOST_TIMED);
+    if sample.problems.is_empty() {
+        return Err(NoChart::Empty);
+    }
+    let plan = Plan {
+        methods: &Method::ALL,
+        schedule: Schedule {
+            rounds: 15,
+            seed: SEED,
+        },
+    };
+    let go_on = |_: usize, _: &str| !cancel.load(Ordering::Relaxed);
+    let report = bench::run(plan, &[sample], SEED, &SystemClock::new(), go_on);
+    if report.complete {
+        Ok(report)
+    } else {
+        Err(NoChart::Cancelled)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::Dial;
+    use crate::render::{Style, fit};
+    use crate::scene::Builtin;
+
+    fn picture(name: &str) -> (Scene, Rays) {
+        let scene = Builtin::by_name(name).unwrap().scene();
+        let (size, shape) = fit(&scene, Style::Ascii, 40, 20, 2.0);
+        let rays = Rays::new(&scene.camera, size, shape);
+        (scene, rays)
+    }
+
+    fn wrong(errors: &[PixelError]) -> usize {
+        errors
+            .iter()
+            .filter(|e| !matches!(e, PixelError::Bits(_)))
+            .count()
+    }
+
+    #[test]
+    fn exact_loses_nothing_and_textbook_does() {
+        let (scene, rays) = picture("trio");
+        let exact = pixel_errors(&scene, &rays, Method::Exact);
+        assert_eq!(exact.len(), rays.size.area());
+        assert!(exact.iter().all(|e| *e == PixelError::Bits(0.0)));
+        let textbook = pixel_errors(&scene, &rays, Method::Textbook);
+        let lossy = |e: &&PixelError| matches!(e, PixelError::Bits(bits) if *bits > 1.0);
+        assert!(textbook.iter().filter(lossy).count() > 20);
+    }
+
+    #[test]
+    fn turning_the_distance_dial_breaks_the_picture_of_textbook() {
+        let (scene, rays) = picture("trio");
+        let far = Dial::by_name("distance").unwrap().turn(&scene, 12).unwrap();
+        let far_rays = Rays::new(
+            &far.camera,
+            rays.size,
+            crate::scene::PixelShape::Aspect(2.0),
+        );
+        assert_eq!(wrong(&pixel_errors(&scene, &rays, Method::Textbook)), 0);
+        let textbook = wrong(&pixel_errors(&far, &far_rays, Method::Textbook));
+        assert!(textbook > 10, "{textbook}");
+        assert_eq!(wrong(&pixel_errors(&far, &far_rays, Method::Double)), 0);
+    }
+
+    #[test]
+    fn a_chart_is_of_the_picture_and_can_be_cancelled() {
+        let (scene, rays) = picture("seed");
+        let cancelled = AtomicBool::new(true);
+        // The other charts of this test program hold the lock for moments only.
+        let result = loop {
+            match chart(&scene, &rays, &cancelled) {
+                Err(NoChart::Busy) => std::thread::yield_now(),
+                result => break result,
+            }
+        };
+        assert_eq!(result.unwrap_err(), NoChart::Cancelled);
+        let report = loop {
+            match chart(&scene, &rays, &AtomicBool::new(false)) {
+                Err(NoChart::Busy) => std::thread::yield_now(),
+                result => break result.unwrap(),
+            }
+        };
+        assert_eq!(report.chapters[0].census.rays, 1600);
+    }
+}

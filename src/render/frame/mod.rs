@@ -1,0 +1,332 @@
+//! The frame: for each pixel, which sphere is seen, at which root, and what the view shows of it.
+//!
+//! Here are the arrays and what others read from them. What is asked, and what is left out, is
+//! decided in [`super::plan`]; `certified` asks `exact` the short way, `plain` asks any method.
+
+mod certified;
+mod memory;
+mod plain;
+
+use glam::Vec3;
+
+use super::View;
+use super::bounds::Eye;
+use super::cover::{Block, Bounds, Projector};
+use super::field::Field;
+use super::layer::{Contact, Layer};
+use super::nearest::{NOBODY, Nearest, is_before};
+use super::plan::{Plan, Way};
+use super::shade;
+use crate::geometry::Sphere;
+use crate::method::Method;
+use crate::method::exact::Stage;
+use crate::scene::{Rays, Scene, Size};
+use memory::{MOST, Memory};
+
+/// What is seen at a pixel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hit {
+    /// The sphere's place in the scene's list.
+    pub body: u32,
+    /// The visible root, the least t > 0, as the method gave it; +∞ past the range of binary32.
+    pub t: f32,
+}
+
+/// What a method lost of the visible root, held against the exact one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Lost {
+    /// So many bits, 0 to 24: log2(1 + the error in ulps).
+    Bits(f32),
+    /// The method sees another sphere than there is, one where there is none, or none.
+    Everything,
+}
+
+/// The least Δ/(4Ar²) of a miss that [`View::Delta`] shows: the line passes the centre at 2r.
+pub(super) const FARTHEST_MISS: f32 = -3.0;
+
+/// The answers for the pixels of one picture, in arrays that are kept from frame to frame.
+///
+/// A picture is the same in whatever order its spheres are asked: the least t wins, and of two
+/// spheres at equal t the one listed first.
+#[derive(Debug, Clone, Default)]
+pub struct Frame {
+    plan: Plan,
+    field: Field,
+    seen: Layer,
+    /// Whether the roots of `seen` are only about where the method has them.
+    roots_are_rough: bool,
+    /// What `exact` sees, in the view that compares the two.
+    truth: Layer,
+    nearest: Nearest,
+    /// Where the spheres of one block can be seen: room to work in.
+    block: Block,
+    /// What the view shows of each pixel, if that is a number: its brightness, Δ/(4Ar²), the bits
+    /// lost, the place of its stage among all.
+    value: Vec<f32>,
+    /// The least and the greatest finite root seen.
+    range: Option<[f32; 2]>,
+    memory: Memory,
+}
+
+impl Frame {
+    /// A frame of no pixels.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Asks `method` what the rays hit, and works out what the view shows of it. What the last frame
+    /// found is kept where it still holds.
+    pub fn render(&mut self, scene: &Scene, rays: &Rays, method: Method, view: View) {
+        let aimed = self.field.aim(rays);
+        let plan = Plan::new(scene, rays, method, view);
+        let same = !aimed && self.plan.asks_the_same(&plan);
+        self.plan = plan;
+        if same && self.memory.find_changes(&scene.bodies) {
+            self.update(scene, rays);
+        } else {
+            self.start(scene, rays);
+        }
+        self.range = (view == View::Depth)
+            .then(|| range_of(&self.seen.t))
+            .flatten();
+    }
+
+    /// As [`Frame::render`], but asks about every sphere at every pixel: what `render` must equal,
+    /// bit for bit.
+    pub fn render_all(&mut self, scene: &Scene, rays: &Rays, method: Method, view: View) {
+        self.field.aim(rays);
+        self.plan = Plan::of_everything(scene, rays, method, view);
+        self.start(scene, rays);
+        self.range = (view == View::Depth)
+            .then(|| range_of(&self.seen.t))
+            .flatten();
+    }
+
+    /// The whole picture anew.
+    fn start(&mut self, scene: &Scene, rays: &Rays) {
+        self.memory.forget();
+        match self.plan.way() {
+            Way::Certified => self.start_certified(scene, rays),
+            Way::Widened | Way::Everything => self.start_plain(scene, rays),
+        }
+        self.memory.complete(&scene.bodies);
+    }
+
+    /// Only the pixels where a sphere that changed was or is.
+    fn update(&mut self, scene: &Scene, rays: &Rays) {
+        let changes = self.memory.changes().len();
+        let mut parts = [Bounds::NONE; 2 * MOST];
+        for (i, part) in parts.chunks_exact_mut(2).take(changes).enumerate() {
+            let number = self.memory.changes()[i];
+            let sphere = scene.bodies[number as usize].sphere;
+            let after = self.bounds_of(&sphere, rays);
+            let before = self.memory.replace(number, sphere, after);
+            part.copy_from_slice(&if before.is_apart_from(after) {
+                [before, after]
+            } else {
+                [before.union(after), Bounds::NONE]
+            });
+        }
+        let redone: u64 = parts.iter().map(|part| part.area()).sum();
+        let all = self.size().area() as u64;
+        if redone > all / 2 {
+            self.start(scene, rays);
+            return;
+        }
+        self.plan.counts.kept = all - redone;
+        for part in parts.into_iter().filter(|part| !part.is_empty()) {
+            match self.plan.way() {
+                Way::Certified => self.redo_certified(scene, rays, part),
+                Way::Widened | Way::Everything => self.redo_plain(scene, rays, part),
+            }
+        }
+    }
+
+    /// Where a sphere can be seen, as this frame remembers it.
+    fn bounds_of(&self, sphere: &Sphere, rays: &Rays) -> Bounds {
+        let line = || Eye::new(rays).window(sphere, self.reach());
+        match (self.plan.way(), self.plan.view()) {
+            (Way::Certified, View::Class) => {
+                let (front, _) = Projector::new(rays).bound_one(sphere);
+                front.union(line())
+            }
+            (Way::Certified, _) => Projector::new(rays).bound_one(sphere).0,
+            (Way::Widened, _) => line(),
+            (Way::Everything, _) => Bounds::whole(rays.size),
+        }
+    }
+
+    /// Makes room for the answers of all pixels; what is there is of no use.
+    fn make_room(&mut self) {
+        let places = self.field.places();
+        self.seen.resize(places);
+        self.truth.resize(places);
+        self.value.clear();
+        self.value.resize(places, 0.0);
+    }
+
+    /// What was asked for this frame, and what was left out and why.
+    pub const fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// The size of the picture.
+    pub fn size(&self) -> Size {
+        self.field.size()
+    }
+
+    /// The view for which the frame was rendered.
+    pub const fn view(&self) -> View {
+        self.plan.view()
+    }
+
+    fn index(&self, x: u32, y: u32) -> Option<usize> {
+        let Size { width, height } = self.size();
+        (x < width && y < height).then(|| self.field.place(x, y))
+    }
+
+    /// The place in the scene's list of the sphere that is seen at pixel (x, y), if one is.
+    pub fn seen(&self, x: u32, y: u32) -> Option<u32> {
+        let body = self.seen.body[self.index(x, y)?];
+        (body != NOBODY).then_some(body)
+    }
+
+    /// The nearest visible hit at pixel (x, y), if there is one; nothing outside the picture.
+    ///
+    /// Where the view shows no roots the method is asked for this one, in the `scene` that the frame
+    /// was rendered from.
+    pub fn hit(&self, scene: &Scene, x: u32, y: u32) -> Option<Hit> {
+        let body = self.seen(x, y)?;
+        let place = self.index(x, y)?;
+        let t = if self.roots_are_rough {
+            let sphere = &scene.bodies.get(body as usize)?.sphere;
+            let ray = self.field.ray(place);
+            self.plan.method().solve(&ray, sphere).visible()?
+        } else {
+            self.seen.t[place]
+        };
+        Some(Hit { body, t })
+    }
+
+    /// What the line of pixel (x, y) does; a miss outside the picture.
+    ///
+    /// Only [`View::Class`] tells what is behind the eye; for the other views it is a miss.
+    pub fn contact(&self, x: u32, y: u32) -> Contact {
+        self.index(x, y)
+            .map_or(Contact::Miss, |i| self.seen.contact[i])
+    }
+
+    fn value(&self, view: View, x: u32, y: u32) -> Option<f32> {
+        let i = self.index(x, y)?;
+        (self.plan.view() == view).then(|| self.value[i])
+    }
+
+    /// How bright the hit at pixel (x, y) is, from 0 to 1; 0 where nothing is hit, and in views
+    /// without shades.
+    pub fn brightness(&self, x: u32, y: u32) -> f32 {
+        self.value(View::Shade, x, y).unwrap_or(0.0)
+    }
+
+    /// Δ/(4Ar²) of the sphere seen at pixel (x, y), else the greatest of all; nothing where every
+    /// line passes at twice the radius or more, and in other views.
+    pub fn delta(&self, x: u32, y: u32) -> Option<f32> {
+        let delta = self.value(View::Delta, x, y)?;
+        (delta > f32::NEG_INFINITY).then_some(delta)
+    }
+
+    /// What the method lost of the visible root at pixel (x, y); nothing where nothing is to be
+    /// seen, and in other views.
+    pub fn lost(&self, x: u32, y: u32) -> Option<Lost> {
+        let lost = self.value(View::Lost, x, y)?;
+        if lost == f32::INFINITY {
+            Some(Lost::Everything)
+        } else {
+            self.seen(x, y).map(|_| Lost::Bits(lost))
+        }
+    }
+
+    /// The slowest stage of `exact` that pixel (x, y) needed, for the classes of all spheres and
+    /// for the visible root; nothing in other views.
+    pub fn stage(&self, x: u32, y: u32) -> Option<Stage> {
+        let place = self.value(View::Stage, x, y)?;
+        Stage::ALL.get(place as usize).copied()
+    }
+
+    /// The unit normal at pixel (x, y) on the side that is seen, along the axes of the screen:
+    /// right, up, towards the eye. Nothing where no sphere is seen, and for a point sphere.
+    pub fn normal(&self, scene: &Scene, x: u32, y: u32) -> Option<Vec3> {
+        let camera = self.field.camera()?;
+        let i = self.index(x, y)?;
+        let hit = shade::Hit {
+            method: self.plan.method(),
+            ray: &self.field.ray(i),
+            sphere: &scene.bodies.get(self.seen(x, y)? as usize)?.sphere,
+            t: self.seen.t[i],
+            place: self.seen.contact[i].visible_root(),
+        };
+        let normal = hit.normal().try_normalize()?;
+        let axes = [camera.right, -camera.down, -camera.direction];
+        let along = axes.map(|axis| axis.normalize().dot(normal) as f32);
+        Some(along.into()).filter(|n: &Vec3| n.is_finite())
+    }
+
+    /// How near `t` is among the roots that [`View::Depth`] shows, by its logarithm: 1 for the
+    /// nearest, 0 for the farthest.
+    pub fn nearness(&self, t: f32) -> f32 {
+        let Some([nearest, farthest]) = self.range else {
+            return 0.0;
+        };
+        let whole = (farthest / nearest).log2();
+        let part = (farthest / t).log2();
+        if whole > 0.0 {
+            (part / whole).clamp(0.0, 1.0)
+        } else {
+            1.0
+        }
+    }
+
+    /// The nearest and the farthest root that [`View::Depth`] shows, those at ∞ apart.
+    pub const fn range(&self) -> Option<[f32; 2]> {
+        self.range
+    }
+
+    /// Whether pixel (x, y) is an edge of what is seen there: whether a neighbour shows something
+    /// else that is farther away. So an edge is one pixel wide and belongs to the nearer sphere.
+    pub fn outline(&self, scene: &Scene, x: u32, y: u32) -> bool {
+        self.seen(x, y).is_some()
+            && [
+                (x.wrapping_sub(1), y),
+                (x + 1, y),
+                (x, y.wrapping_sub(1)),
+                (x, y + 1),
+            ]
+            .into_iter()
+            .any(|there| self.is_beyond(scene, there, (x, y)))
+    }
+
+    /// Whether one pixel shows something else than another, and farther away.
+    fn is_beyond(&self, scene: &Scene, there: (u32, u32), here: (u32, u32)) -> bool {
+        let [Some(i), Some(j)] = [there, here].map(|(x, y)| self.index(x, y)) else {
+            return false;
+        };
+        let [there_is, here_is] = [i, j].map(|place| (self.seen.t[place], self.seen.body[place]));
+        if there_is.1 == here_is.1 {
+            return false;
+        }
+        if there_is.1 == NOBODY || is_before(here_is.0, there_is.0) {
+            return true;
+        }
+        if is_before(there_is.0, here_is.0) {
+            return false;
+        }
+        // About as far away as each other: only the method can tell.
+        let order = |(x, y): (u32, u32)| self.hit(scene, x, y).map(|hit| (hit.t, hit.body));
+        order(there) > order(here)
+    }
+}
+
+/// The least and the greatest number that is finite.
+fn range_of(t: &[f32]) -> Option<[f32; 2]> {
+    let finite = || t.iter().copied().filter(|t| t.is_finite());
+    Some([finite().reduce(f32::min)?, finite().reduce(f32::max)?])
+}

@@ -1,0 +1,216 @@
+//! Frames of any method: the method itself is asked, about each sphere at the pixels of its window.
+
+use super::{FARTHEST_MISS, Frame};
+use crate::geometry::{Ray, Sphere};
+use crate::method::exact;
+use crate::method::{Class, Method, Place};
+use crate::render::View;
+use crate::render::bounds::Eye;
+use crate::render::cover::Bounds;
+use crate::render::finish;
+use crate::render::nearest::{NOBODY, Question};
+use crate::render::plan::Way;
+use crate::render::shade;
+use crate::scene::{Rays, Scene};
+
+impl Frame {
+    /// The whole picture.
+    pub(super) fn start_plain(&mut self, scene: &Scene, rays: &Rays) {
+        let whole = Bounds::whole(rays.size);
+        let eye = Eye::new(rays);
+        for body in &scene.bodies {
+            let bounds = match self.plan.way() {
+                Way::Everything => whole,
+                _ => eye.window(&body.sphere, self.reach()),
+            };
+            self.plan.counts.outside += u64::from(bounds.is_empty());
+            self.memory.learn(bounds);
+        }
+        self.make_room();
+        if self.compares() {
+            self.find_nearest(scene, rays, |_, _, _| ());
+        }
+        self.ask_within(scene, whole);
+    }
+
+    /// The pixels within `part`.
+    pub(super) fn redo_plain(&mut self, scene: &Scene, rays: &Rays, part: Bounds) {
+        if self.compares() {
+            self.find_nearest_within(scene, rays, part);
+        }
+        self.ask_within(scene, part);
+    }
+
+    /// Up to how many radii from a sphere's centre a line is of interest.
+    pub(super) fn reach(&self) -> f64 {
+        if self.plan.view() == View::Delta {
+            2.0
+        } else {
+            1.0
+        }
+    }
+
+    /// Whether the answers are held against those of the certified way.
+    fn compares(&self) -> bool {
+        self.plan.view() == View::Lost && self.plan.way() == Way::Widened
+    }
+
+    fn ask_within(&mut self, scene: &Scene, part: Bounds) {
+        self.roots_are_rough = false;
+        let none = match self.plan.view() {
+            View::Delta => f32::NEG_INFINITY,
+            _ => 0.0,
+        };
+        for place in self.field.places_within(part) {
+            self.seen.clear(place);
+            self.truth.clear(place);
+            self.value[place] = none;
+        }
+        for (number, body) in (0..NOBODY).zip(&scene.bodies) {
+            let bounds = self.memory.bounds()[number as usize].within(part);
+            if bounds.is_empty() {
+                continue;
+            }
+            self.plan.note_box(bounds);
+            for place in self.field.places_within(bounds) {
+                self.ask(place, number, &body.sphere);
+            }
+        }
+        if self.plan.view() == View::Lost {
+            self.find_truth(scene, part);
+        }
+        for place in self.field.places_within(part) {
+            self.finish_pixel(scene, place);
+        }
+    }
+
+    /// Asks about one sphere at one pixel.
+    fn ask(&mut self, place: usize, number: u32, sphere: &Sphere) {
+        let ray = &self.field.ray(place);
+        let method = self.plan.method();
+        let (answer, stage) = match method {
+            Method::Exact => {
+                let (answer, stages) = exact::solve_staged(ray, sphere);
+                if self.plan.view() == View::Stage {
+                    let value = &mut self.value[place];
+                    *value = value.max(stages.class as u8 as f32);
+                }
+                (answer, Some(stages.last()))
+            }
+            method => (method.solve(ray, sphere), None),
+        };
+        self.plan.note_solved(stage);
+        let is_seen = self
+            .seen
+            .note(place, number, &answer, self.plan.view() == View::Class);
+        if self.plan.view() == View::Delta {
+            let delta = normalised_discriminant(method, ray, sphere, answer.class);
+            if is_seen {
+                self.value[place] = delta;
+            } else if self.seen.body[place] == NOBODY && delta > FARTHEST_MISS {
+                self.value[place] = self.value[place].max(delta);
+            }
+        }
+    }
+
+    /// What `exact` sees within `part`.
+    fn find_truth(&mut self, scene: &Scene, part: Bounds) {
+        if self.plan.way() == Way::Widened {
+            let question = Question {
+                field: &self.field,
+                bodies: &scene.bodies,
+            };
+            let counts = &mut self.plan.counts;
+            finish::identify(
+                &question,
+                &self.nearest,
+                &mut self.truth,
+                part,
+                true,
+                counts,
+            );
+            return;
+        }
+        for (number, body) in (0..NOBODY).zip(&scene.bodies) {
+            for place in self.field.places_within(part) {
+                let answer = Method::Exact.solve(&self.field.ray(place), &body.sphere);
+                self.truth.note(place, number, &answer, false);
+            }
+        }
+    }
+
+    /// What the view asks of the sphere that is seen at one pixel.
+    fn finish_pixel(&mut self, scene: &Scene, place: usize) {
+        let number = self.seen.body[place];
+        let sphere = scene.bodies.get(number as usize).map(|body| &body.sphere);
+        let ray = &self.field.ray(place);
+        let which = self.seen.contact[place].visible_root();
+        match (self.plan.view(), sphere) {
+            (View::Shade, Some(sphere)) => {
+                self.plan.counts.shaded += 1;
+                let hit = shade::Hit {
+                    method: self.plan.method(),
+                    ray,
+                    sphere,
+                    t: self.seen.t[place],
+                    place: which,
+                };
+                self.value[place] = hit.brightness(scene.light);
+            }
+            (View::Lost, _) => {
+                self.value[place] = if number == self.truth.body[place] {
+                    bits_lost(self.seen.t[place], self.truth.t[place])
+                } else {
+                    f32::INFINITY
+                };
+            }
+            // The stage that rounded the visible root counts, beside those that were sure of a class.
+            (View::Stage, Some(sphere)) => {
+                let (_, stages) = exact::solve_staged(ray, sphere);
+                let root = match which {
+                    Place::Inside => stages.far,
+                    _ => stages.near,
+                };
+                let root = root.unwrap_or(stages.class) as u8;
+                self.value[place] = self.value[place].max(root.into());
+            }
+            _ => {}
+        }
+    }
+}
+
+/// log2(1 + |answer − exact| in ulps), at most the 24 bits that there are.
+fn bits_lost(answer: f32, exact: f32) -> f32 {
+    if answer == exact {
+        return 0.0;
+    }
+    let ulp = f64::from(exact.next_up()) - f64::from(exact);
+    let ulps = (f64::from(answer) - f64::from(exact)).abs() / ulp;
+    ((1.0 + ulps).log2() as f32).min(f32::MANTISSA_DIGITS as f32)
+}
+
+/// Δ/(4Ar²) as `method` has it: −∞ for a miss, 0 for a meeting where that is not a number, as with
+/// a point sphere.
+///
+/// The size of an exact Δ is taken from the method `double`, which has it to all the bits that a
+/// picture can show; its sign is that of the exact class.
+fn normalised_discriminant(method: Method, ray: &Ray, sphere: &Sphere, class: Class) -> f32 {
+    let size = match method {
+        Method::Exact => Method::Double,
+        _ => method,
+    }
+    .coefficients(ray, sphere);
+    let r = f64::from(sphere.radius);
+    let delta = (size.discriminant / (4.0 * size.a * r * r)) as f32;
+    let delta = match (method, class) {
+        (Method::Exact, Class::Miss) => -delta.abs(),
+        (Method::Exact, Class::Tangent) => 0.0,
+        (Method::Exact, Class::Secant) => delta.abs(),
+        _ => delta,
+    };
+    match class {
+        _ if !delta.is_nan() => delta,
+        Class::Tangent | Class::Secant => 0.0,
+        Class::Miss | Class::Nan => f32::NEG_INFINITY,
+    }
+}

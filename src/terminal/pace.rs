@@ -1,0 +1,139 @@
+//! When the next frame may go out: only as fast as the terminal deals with them.
+//!
+//! What is written goes into buffers on its way, of the kernel and of the network, that hold
+//! seconds of frames on a slow link. So each frame ends in a status query, and while too much is
+//! unanswered the next frame waits: the state goes on, and the screen follows with the newest of
+//! it. A terminal that answers nothing is written to without asking.
+
+use std::collections::VecDeque;
+use std::time::{Duration, Instant};
+
+/// Asks the terminal for its status; the answer tells that all before it has been dealt with.
+pub const QUERY: &[u8] = b"\x1b[5n";
+
+/// So many bytes may be unanswered when a frame is started.
+const WINDOW: usize = 4096;
+/// A terminal that has never answered is given this long.
+const FIRST_ANSWER: Duration = Duration::from_secs(1);
+/// One that has answered before is given this long, and is written to then all the same.
+const NEXT_ANSWER: Duration = Duration::from_secs(5);
+
+/// How the terminal keeps up.
+#[derive(Debug, Default)]
+pub struct Pace {
+    /// Frames that are not answered: when they were written, and how long they are.
+    unanswered: VecDeque<(Instant, usize)>,
+    habit: Habit,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Habit {
+    #[default]
+    Unknown,
+    Answers,
+    Silent,
+}
+
+impl Pace {
+    /// Whether a query is worth its bytes.
+    pub fn asks(&self) -> bool {
+        self.habit != Habit::Silent
+    }
+
+    /// A frame of `bytes` has been handed over, with a query at its end if [`Pace::asks`].
+    pub fn wrote(&mut self, bytes: usize, now: Instant) {
+        if self.asks() {
+            self.unanswered.push_back((now, bytes));
+        }
+    }
+
+    /// The terminal has answered a query.
+    pub fn answered(&mut self) {
+        self.habit = Habit::Answers;
+        self.unanswered.pop_front();
+    }
+
+    /// When the next frame may go out; none if at once.
+    pub fn due(&mut self, now: Instant) -> Option<Instant> {
+        let bytes: usize = self.unanswered.iter().map(|(_, n)| n).sum();
+        let &(oldest, _) = self.unanswered.front()?;
+        if bytes < WINDOW {
+            return None;
+        }
+        let patience = match self.habit {
+            Habit::Answers => NEXT_ANSWER,
+            Habit::Unknown | Habit::Silent => FIRST_ANSWER,
+        };
+        if now < oldest + patience {
+            return Some(oldest + patience);
+        }
+        if self.habit == Habit::Unknown {
+            self.habit = Habit::Silent;
+        }
+        self.unanswered.clear();
+        None
+    }
+
+    /// Whether an answer is still to come.
+    pub fn is_waiting(&self) -> bool {
+        !self.unanswered.is_empty()
+    }
+
+    /// Starts anew, as on a terminal that has been away.
+    pub fn forget(&mut self) {
+        self.unanswered.clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn after(start: Instant, ms: u64) -> Instant {
+        start + Duration::from_millis(ms)
+    }
+
+    #[test]
+    fn a_terminal_that_reads_slowly_is_waited_for() {
+        let start = Instant::now();
+        let mut pace = Pace::default();
+        assert_eq!(pace.due(start), None);
+        pace.wrote(1000, start);
+        assert_eq!(pace.due(start), None, "little is on its way");
+        pace.answered();
+        pace.wrote(3000, start);
+        pace.wrote(3000, start);
+        assert_eq!(pace.due(after(start, 900)), Some(start + NEXT_ANSWER));
+        pace.answered();
+        assert_eq!(pace.due(after(start, 1000)), None);
+        pace.answered();
+        assert!(!pace.is_waiting());
+    }
+
+    #[test]
+    fn a_terminal_that_answers_nothing_is_asked_no_more() {
+        let start = Instant::now();
+        let mut pace = Pace::default();
+        assert!(pace.asks());
+        pace.wrote(5000, start);
+        assert_eq!(pace.due(start), Some(start + FIRST_ANSWER));
+        assert_eq!(pace.due(after(start, 1000)), None);
+        assert!(!pace.asks());
+        pace.wrote(5000, after(start, 1001));
+        assert_eq!(pace.due(after(start, 1001)), None);
+        pace.answered();
+        assert!(pace.asks(), "it was only late");
+    }
+
+    #[test]
+    fn a_terminal_that_stopped_answering_is_not_waited_for_in_vain() {
+        let start = Instant::now();
+        let mut pace = Pace::default();
+        pace.wrote(5000, start);
+        pace.answered();
+        pace.wrote(5000, start);
+        assert_eq!(pace.due(start), Some(start + NEXT_ANSWER));
+        assert_eq!(pace.due(start + NEXT_ANSWER), None);
+        assert!(pace.asks());
+    }
+}

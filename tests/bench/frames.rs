@@ -1,0 +1,4 @@
+//! Times whole frames.
+fn main() {
+    rayscope::lab::frames::sketch();
+}

@@ -1,0 +1,258 @@
+//! The whole program in a terminal: what a person sees, and what is left when it ends.
+
+mod pty;
+mod seen;
+
+use std::fs;
+
+use pty::{Pty, Start};
+use rustix::process::Signal;
+
+#[test]
+fn a_person_opens_moves_reads_saves_and_quits() {
+    let mut pty = Pty::explorer(Start::default().args(&["seed", "--method", "textbook"]));
+    // A, B, C and the discriminant of pixel (20, 20), where the cursor starts.
+    for line in ["(20, 20)", "d·d", "two points"] {
+        pty.waits_to_show(line);
+    }
+    assert_eq!(pty.value("A"), "1");
+    assert_eq!(pty.value("B"), "−40");
+    assert_eq!(pty.value("C"), "300");
+    assert_eq!(pty.value("Δ"), "400");
+
+    pty.sends("\x1b[C\x1b[B");
+    pty.waits_to_show("(21, 21)");
+    assert_eq!(pty.value("C"), "302");
+
+    pty.sends("x");
+    pty.waits_to_show("unsaved");
+    pty.sends(":save-as moved.toml\r");
+    pty.waits_to_show("Saved");
+    let saved = fs::read_to_string(pty.file("moved.toml")).expect("the file");
+    assert!(saved.contains("center = [21, 20, 20]"), "{saved}");
+
+    pty.sends("q");
+    assert_eq!(pty.ends(), 0);
+    pty.is_restored();
+}
+
+#[test]
+fn a_terminal_that_can_not_draw_is_told_what_to_use() {
+    for start in [
+        Start::default().env("TERM", "dumb"),
+        Start::default().env("TERM", ""),
+        Start::default().through("exec \"$@\" | cat"),
+    ] {
+        let mut pty = start.open();
+        pty.ends();
+        assert!(pty.shows("rayscope print SCENE"), "{}", pty.text());
+        assert!(!pty.bytes().contains(&0x1b), "an escape sequence");
+        pty.is_restored();
+    }
+}
+
+#[test]
+fn any_sequence_of_sizes_is_survived() {
+    let mut pty = Pty::explorer(Start::default());
+    let first = seen::cells(pty.screen());
+    for (cols, rows) in [
+        (1, 1),
+        (0, 0),
+        (2, 200),
+        (300, 1),
+        (20, 6),
+        (19, 5),
+        (500, 200),
+        (0, 24),
+        (80, 0),
+        (64, 18),
+    ] {
+        pty.resizes(cols, rows);
+        pty.sends("\x1b[C\x1b[D");
+    }
+    pty.resizes(80, 24);
+    pty.waits_for("the first screen again", |p| {
+        seen::cells(p.screen()) == first
+    });
+    pty.sends("q");
+    assert_eq!(pty.ends(), 0);
+    pty.is_restored();
+}
+
+#[test]
+fn the_smallest_terminals_are_told_and_can_grow() {
+    for (cols, rows) in [(1, 1), (0, 0), (19, 6)] {
+        let mut pty = Start::default().size(cols, rows).open();
+        pty.waits_for("the alternate screen", |p| p.screen().alternate_screen());
+        pty.resizes(80, 24);
+        pty.waits_to_show("ray of pixel");
+        pty.sends("q");
+        assert_eq!(pty.ends(), 0);
+        pty.is_restored();
+    }
+}
+
+#[test]
+fn a_signal_ends_it_and_the_status_says_which() {
+    for (signal, status) in [
+        (Signal::HUP, 129),
+        (Signal::INT, 130),
+        (Signal::QUIT, 131),
+        (Signal::TERM, 143),
+    ] {
+        let mut pty = Pty::explorer(Start::default());
+        pty.is_sent(signal);
+        assert_eq!(pty.ends(), status);
+        pty.is_restored();
+    }
+    let mut pty = Pty::explorer(Start::default());
+    pty.sends("\x03");
+    assert_eq!(pty.ends(), 130);
+    pty.is_restored();
+}
+
+#[test]
+fn ctrl_z_gives_the_terminal_to_the_shell_and_fg_comes_back() {
+    let shell = "set -m; \"$@\"; echo back in the shell; read line; fg >/dev/null; echo status $?";
+    let mut pty = Pty::explorer(Start::default().through(shell));
+    pty.sends("l\x1a");
+    pty.waits_to_show("back in the shell");
+    pty.is_restored();
+    pty.sends("go on\r");
+    pty.waits_to_show("(21, 20)");
+    assert!(pty.screen().alternate_screen());
+    pty.sends("q");
+    pty.waits_to_show("status 0");
+    assert_eq!(pty.ends(), 0);
+    pty.is_restored();
+}
+
+#[test]
+fn without_a_shell_ctrl_z_stops_nothing() {
+    let mut pty = Pty::explorer(Start::default());
+    pty.sends("\x1a");
+    pty.waits_to_show("no shell to go back to");
+    pty.is_sent(Signal::TSTP);
+    pty.sends("l");
+    pty.waits_to_show("(21, 20)");
+    pty.sends("q");
+    assert_eq!(pty.ends(), 0);
+}
+
+#[test]
+fn a_terminal_that_closes_ends_it_even_where_its_signal_is_ignored() {
+    assert_eq!(Pty::explorer(Start::default()).hangs_up(), 129);
+    let deaf = Start::default().through("trap '' HUP; exec \"$@\"");
+    assert_eq!(Pty::explorer(deaf).hangs_up(), 129);
+}
+
+#[test]
+fn unsaved_work_outlives_the_terminal_and_is_offered_again() {
+    let mut pty = Pty::explorer(Start::default());
+    pty.sends("x");
+    pty.waits_to_show("unsaved");
+    let home = pty.home();
+    assert_eq!(pty.hangs_up(), 129);
+
+    let mut pty = Pty::explorer(Start::default().home(&home));
+    pty.waits_to_show("Unsaved work of");
+    pty.sends("o");
+    pty.waits_to_show("c    21, 20, 20");
+    pty.is_sent(Signal::TERM);
+    assert_eq!(pty.ends(), 143);
+    pty.is_restored();
+    assert!(pty.shows("unsaved work is kept in"));
+
+    let state = home.path().join(".local/state/rayscope");
+    let kept = fs::read_dir(&state).expect("the folder").count();
+    assert_eq!(kept, 1, "the new file stands for the old");
+}
+
+#[test]
+fn every_usual_terminal_gets_colours_that_it_has() {
+    for (term, colors, fewer) in [
+        ("xterm-256color", true, false),
+        ("screen-256color", true, false),
+        ("tmux-256color", true, false),
+        ("linux", true, true),
+        ("vt100", false, true),
+    ] {
+        let mut pty = Pty::explorer(Start::default().args(&["trio"]).env("TERM", term));
+        pty.sends("adv:quit!\r");
+        assert_eq!(pty.ends(), 0);
+        pty.is_restored();
+        assert_eq!(pty.sets_colors(), colors, "{term}");
+        assert_eq!(pty.occurrences(b";5;") == 0, fewer, "{term}");
+        assert_eq!(pty.occurrences(b"8;2;"), 0, "true colour on {term}");
+    }
+}
+
+#[test]
+fn no_color_is_obeyed() {
+    let mut pty = Pty::explorer(
+        Start::default()
+            .args(&["trio"])
+            .env("NO_COLOR", "1")
+            .env("COLORTERM", "truecolor"),
+    );
+    pty.sends("dbvvv?\x1b:quit!\r");
+    assert_eq!(pty.ends(), 0);
+    assert!(!pty.sets_colors());
+}
+
+#[test]
+fn where_the_locale_has_only_ascii_nothing_else_is_written() {
+    let mut pty = Pty::explorer(Start::default().args(&["trio"]).env("LANG", "C"));
+    pty.sends("dbbbvvv?\x1b=\x1b:é\x15quit!\r");
+    assert_eq!(pty.ends(), 0);
+    let odd: Vec<_> = pty.bytes().iter().filter(|b| !b.is_ascii()).collect();
+    assert!(odd.is_empty(), "{odd:?}");
+}
+
+#[test]
+fn a_terminal_that_answers_no_query_works_all_the_same() {
+    let mut pty = Start::default().args(&["trio"]).open();
+    pty.answers_nothing();
+    pty.waits_to_show("ray of pixel");
+    pty.sends(&"d".repeat(30));
+    pty.sends(":cursor 5 5\r");
+    pty.waits_to_show("(5, 5)");
+    pty.sends("q");
+    pty.waits_to_show("Unsaved");
+    pty.sends("q");
+    assert_eq!(pty.ends(), 0);
+    pty.is_restored();
+}
+
+impl Pty {
+    /// Whether a colour was asked for anywhere: 30 to 38, 40 to 48, 90 to 107.
+    fn sets_colors(&self) -> bool {
+        let text = String::from_utf8_lossy(self.bytes());
+        let sequences = text.split("\x1b[").skip(1);
+        sequences
+            .filter_map(|s| s.split_once('m'))
+            .map(|(parameters, _)| parameters)
+            .filter(|p| p.bytes().all(|b| b.is_ascii_digit() || b == b';'))
+            .flat_map(|p| p.split(';'))
+            .filter_map(|n| n.parse().ok())
+            .any(|n: u16| matches!(n, 30..=38 | 40..=48 | 90..=107))
+    }
+
+    /// The last word of the panel's line that starts with this name.
+    fn value(&self, name: &str) -> String {
+        let text = self.text();
+        let panel = |line: &str| {
+            line.rsplit_once('│')
+                .and_then(|(l, _)| Some(l.rsplit_once('│')?.1.trim().to_owned()))
+        };
+        let line = text
+            .lines()
+            .filter_map(panel)
+            .find(|line| line.split_whitespace().next() == Some(name))
+            .unwrap_or_else(|| panic!("no {name} on\n{text}"));
+        line.split_whitespace()
+            .last()
+            .unwrap_or_default()
+            .to_owned()
+    }
+}

@@ -1,0 +1,400 @@
+//! The tour as a student walks it: keys in, screens out; and chapters as a teacher writes them.
+
+use std::fs;
+use std::path::Path;
+
+use ratatui::buffer::Buffer;
+use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
+use ratatui::layout::Rect;
+use rayscope::explain::Glyphs;
+use rayscope::explorer::tour::{self, Chapter};
+use rayscope::explorer::{Explorer, Options};
+use rayscope::render::ColorDepth;
+use rayscope::scene::Scene;
+
+/// Somebody with the explorer before them.
+struct Student {
+    explorer: Explorer,
+    size: (u16, u16),
+}
+
+impl Student {
+    fn opens(name: &str, size: (u16, u16), options: Options) -> Self {
+        let (scene, source) = Scene::open(name).expect("a scene");
+        let explorer = Explorer::new(scene, &source, options);
+        let mut student = Self { explorer, size };
+        student.screen();
+        student
+    }
+
+    /// On a page of the tour, both counted from 1.
+    fn on_page(chapter: usize, page: usize, size: (u16, u16)) -> Self {
+        let mut student = Self::opens("seed", size, Options::default());
+        student
+            .explorer
+            .start_tour(tour::builtin(), chapter - 1, page - 1);
+        student
+    }
+
+    fn presses(&mut self, keys: &str) -> &mut Self {
+        for key in keys.split_whitespace() {
+            let (modifiers, key) = match key.strip_prefix("ctrl-") {
+                Some(rest) => (KeyModifiers::CONTROL, rest),
+                None => (KeyModifiers::NONE, key),
+            };
+            let code = match key {
+                "enter" => KeyCode::Enter,
+                "esc" => KeyCode::Esc,
+                "up" => KeyCode::Up,
+                "right" => KeyCode::Right,
+                key => KeyCode::Char(key.chars().next().expect("a key")),
+            };
+            let event = Event::Key(KeyEvent::new(code, modifiers));
+            self.explorer.update(&event);
+            self.screen();
+        }
+        self
+    }
+
+    fn types(&mut self, line: &str) -> &mut Self {
+        self.presses(":");
+        self.explorer.update(&Event::Paste(line.into()));
+        self.presses("enter")
+    }
+
+    fn screen(&mut self) -> String {
+        let (cols, rows) = self.size;
+        let mut buffer = Buffer::empty(Rect::new(0, 0, cols, rows));
+        self.explorer.prepare(cols, rows);
+        self.explorer.draw(&mut buffer);
+        let line = |y| -> String { (0..cols).map(|x| buffer[(x, y)].symbol()).collect() };
+        (0..rows)
+            .map(|y| line(y).trim_end().to_owned() + "\n")
+            .collect()
+    }
+
+    fn shows(&mut self, text: &str) -> &mut Self {
+        let screen = self.screen();
+        // A text that is wrapped is shown all the same.
+        let joined = screen.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(
+            screen.contains(text) || joined.contains(text),
+            "no “{text}” on\n{screen}"
+        );
+        self
+    }
+}
+
+const SMALL: (u16, u16) = (80, 24);
+const LARGE: (u16, u16) = (160, 50);
+
+#[test]
+fn a_walk_of_the_whole_tour_shows_every_page_whole() {
+    let chapters = tour::builtin();
+    for size in [SMALL, LARGE] {
+        let mut student = Student::opens("trio", size, Options::default());
+        student.presses("ctrl-t");
+        for (n, chapter) in (1..).zip(chapters.iter()) {
+            for (p, page) in (1..).zip(&chapter.pages) {
+                let (count, pages) = (chapters.len(), chapter.pages.len());
+                let title = &chapter.title;
+                let place = format!("{n}/{count}: {title}, page {p}/{pages} ");
+                student.shows(&place).shows("f next");
+                let screen = student.screen();
+                let lines: Vec<&str> = screen.lines().collect();
+                // Beside each other on a large screen, under each other on a small one.
+                for text in page.text.iter().chain(&page.attempt) {
+                    for word in text.split_whitespace() {
+                        assert!(screen.contains(word), "no “{word}” on\n{screen}");
+                    }
+                }
+                // A message would say that the page asks for something that is not there.
+                assert!(
+                    lines[size.1 as usize - 1].contains("arrows cursor"),
+                    "{screen}"
+                );
+                assert!(student.explorer.reading().is_some());
+                assert!(!student.explorer.is_changed());
+                student.presses("f");
+            }
+        }
+        student.shows("This was the last page.");
+    }
+}
+
+#[test]
+fn the_tour_has_the_tutorials_numbers() {
+    let on_screen: [((usize, usize), &[&str]); 16] = [
+        ((1, 1), &["y = 1.1x + 0.2", "(8, 9) and (−2, −2)", "r 5"]),
+        (
+            (1, 2),
+            &[
+                "2.21x² + 0.44x − 24.96 = 0",
+                "0.44² − 4·2.21·(−24.96) = 220.84",
+                "x = 3.26 and x = −3.46",
+                "c    3.26, 3.786, 6",
+            ],
+        ),
+        (
+            (1, 3),
+            &[
+                "p0   0, 0.2, 0",
+                "d    1, 1.1, 0",
+                "A    d·d            2.21",
+                "B    2 d·(p0−c)     0.44",
+                "C    |p0−c|² − r²  −24.96",
+                "Δ    B² − 4AC       220.84",
+                "near (−B − √Δ) / 2A −3.46",
+                "far  (−B + √Δ) / 2A  3.26",
+            ],
+        ),
+        (
+            (1, 4),
+            &[
+                "(−3.46, −3.606) and (3.26, 3.786)",
+                "B in at t = −3.46",
+                "B′ out at t = 3.26",
+            ],
+        ),
+        (
+            (2, 1),
+            &[
+                "(2, 5, 7), (4, 10, 14), (6, 15, 21), (8, 20, 28)",
+                "c    2, 5, 7",
+            ],
+        ),
+        ((3, 1), &["(p − c)·(p − c) = r²", "step 3 of"]),
+        ((3, 2), &["At² + Bt + C = 0", "step 4 of"]),
+        (
+            (4, 1),
+            &[
+                "A    d·d            1",
+                "B    2 d·(p0−c)    −40",
+                "C    |p0−c|² − r²   300",
+                "Δ    B² − 4AC       400",
+                "A  10",
+                "A  30",
+            ],
+        ),
+        ((4, 2), &["= 1600 − 1200", "= 400"]),
+        ((5, 1), &["Δ    B² − 4AC      −44", "miss"]),
+        ((5, 2), &["Δ    B² − 4AC       0", "tangent"]),
+        ((5, 3), &["Δ    B² − 4AC       64", "A  16", "A  24"]),
+        ((6, 1), &["317", "++", "--"]),
+        ((6, 2), &["12 rays touch", "Δ    B² − 4AC       0"]),
+        ((8, 1), &["Δ > 0", "behind the eye: not seen"]),
+        ((8, 2), &["C    |p0−c|² − r²  −39", "inside"]),
+    ];
+    for ((chapter, page), texts) in on_screen {
+        let mut student = Student::on_page(chapter, page, SMALL);
+        for text in texts {
+            student.shows(text);
+        }
+    }
+    // The other steps of the parametric ray, one after the other.
+    let mut student = Student::on_page(2, 1, SMALL);
+    student.presses("n");
+    for (n, bead) in ["2, 5, 7", "4, 10, 14", "6, 15, 21", "8, 20, 28"]
+        .into_iter()
+        .enumerate()
+    {
+        student
+            .shows(&format!("c    {bead}"))
+            .shows(&format!("{}/4", n + 1));
+        student.presses("n");
+    }
+}
+
+#[test]
+fn the_tour_shows_how_binary32_loses_and_what_helps() {
+    let right = |chapter, page| {
+        let mut student = Student::on_page(chapter, page, SMALL);
+        student.screen();
+        let reading = student.explorer.reading().expect("a reading");
+        let trace = &reading.subject.as_ref().expect("a sphere").trace;
+        trace.solution.class == trace.truth.class
+            && (trace.solution.near / trace.truth.near - 1.0).abs() < 1e-3
+    };
+    assert!(!right(11, 1) && !right(11, 2), "the lost sphere");
+    assert!(right(11, 3), "its cure");
+    assert!(!right(12, 1) && !right(12, 2), "the ground");
+    assert!(right(12, 3), "its cure");
+    assert!(right(13, 1) && right(13, 2), "exact");
+}
+
+#[test]
+fn some_pages_as_they_are() {
+    let page = |chapter, page, size| Student::on_page(chapter, page, size).screen();
+    insta::assert_snapshot!("circle_and_line_80x24", page(1, 3, SMALL));
+    insta::assert_snapshot!("a_b_c_80x24", page(4, 2, SMALL));
+    insta::assert_snapshot!("lost_sphere_160x50", page(11, 1, LARGE));
+    insta::assert_snapshot!("three_rays_40x24", page(5, 1, (40, 24)));
+    insta::assert_snapshot!("three_rays_30x10", page(5, 1, (30, 10)));
+}
+
+#[test]
+fn in_plain_characters_the_tour_is_plain() {
+    let options = Options {
+        glyphs: Glyphs::Ascii,
+        depth: ColorDepth::None,
+        ..Options::default()
+    };
+    let pages: usize = tour::builtin().iter().map(|c| c.pages.len()).sum();
+    let mut student = Student::opens("seed", SMALL, options);
+    student.presses("f");
+    for _ in 0..pages {
+        let screen = student.screen();
+        assert!(screen.is_ascii(), "{screen}");
+        assert!(!screen.contains('?') || screen.contains("? help"));
+        student.presses("f");
+    }
+}
+
+#[test]
+fn a_page_that_does_not_fit_is_read_on_before_the_next() {
+    let mut student = Student::on_page(5, 1, (40, 20));
+    student.shows("f more");
+    let mut presses = 0;
+    while !student.screen().contains("page 2/4") {
+        student.presses("f");
+        presses += 1;
+        assert!(presses < 20, "{}", student.screen());
+    }
+    assert!(presses > 1);
+    student.presses("F").shows("page 1/4");
+    for size in [(20, 6), (20, 8), (66, 9), (300, 100), (1, 1), (0, 0)] {
+        student.size = size;
+        student.presses("f f F r");
+    }
+}
+
+#[test]
+fn somebody_who_left_the_path_finds_back() {
+    let mut student = Student::on_page(4, 2, SMALL);
+    let page = student.screen();
+    student.presses("right right up enter m v x g : esc 1");
+    assert_ne!(student.screen(), page);
+    student.presses("r");
+    let with_message = student.screen();
+    student.presses("esc");
+    assert_eq!(student.screen(), page, "was\n{with_message}");
+    // What was tried is not lost: it can be taken back up.
+    student.presses("x r").shows("u brings back");
+    let center = student.explorer.scene().bodies[0].sphere.center.x;
+    student.presses("u");
+    assert_ne!(student.explorer.scene().bodies[0].sphere.center.x, center);
+}
+
+#[test]
+fn own_work_waits_behind_the_tour() {
+    let mut student = Student::opens("trio", SMALL, Options::default());
+    student.presses("right x m 1 a");
+    let own = student.explorer.scene().clone();
+    let screen = student.screen();
+    student.presses("f").shows("Unsaved changes.");
+    student.presses("esc esc");
+    assert_eq!(student.screen(), screen);
+    student.presses("f t").shows("1/13");
+    assert!(student.explorer.is_changed(), "it is still unsaved");
+    student.presses("x f f u x ctrl-t esc");
+    assert_eq!(student.screen(), screen);
+    student.presses("u u");
+    assert_ne!(
+        *student.explorer.scene(),
+        own,
+        "with all that can be undone"
+    );
+    student.presses("U U ctrl-t t").shows("page 3/4");
+    // Leaving the program asks in front of what would be lost.
+    student.presses("q").shows("Unsaved changes.");
+    assert_eq!(*student.explorer.scene(), own);
+    assert_eq!(student.explorer.ended(), None);
+    student.presses("q");
+    assert_eq!(student.explorer.ended(), Some(0));
+}
+
+#[test]
+fn chapters_are_reached_by_name_number_and_key() {
+    let mut student = Student::opens("seed", SMALL, Options::default());
+    student.types("tour perspective").shows("10/13");
+    student.types("tour 2").shows("2/13");
+    student.presses("ctrl-n").shows("3/13");
+    student.presses("f ctrl-p").shows("3/13").shows("page 1/2");
+    student.presses("ctrl-p").shows("2/13");
+    student.presses("F").shows("1/13").shows("page 4/4");
+    student
+        .types("tour 14")
+        .shows("expected a chapter: 1 to 13");
+    student.presses("esc").types("open trio").shows("3 spheres");
+    student
+        .presses("r")
+        .shows("The tour is not open. f opens it.");
+    student.presses("f").shows("1/13").shows("page 4/4");
+}
+
+#[test]
+fn the_style_that_a_person_likes_stays() {
+    let mut student = Student::on_page(5, 1, SMALL);
+    student.presses("b b f").shows("   ascii   ");
+    student.types("tour 6").shows("   seed   ");
+}
+
+/// The sentence for a chapter's text.
+fn refused(text: &str) -> String {
+    let error = Chapter::parse(text, "mine.toml", None).expect_err("not a chapter");
+    error.to_string()
+}
+
+#[test]
+fn a_chapter_that_is_none_is_refused_with_its_place() {
+    let said = [
+        "title = 3",
+        "title = \"a\"",
+        "title = \"a\"\n[[page]]\ntext = \"b\"",
+        "title = \"a\"\n[[page]]\nscene = \"seed\"\ntext = \" \"",
+        "title = \"a\"\n[[page]]\nscene = \"sead\"\ntext = \"b\"",
+        "title = \"a\"\n[[page]]\nscene = \"seed\"\ntext = \"b\"\nmethod = \"fast\"",
+        "title = \"a\"\n[[page]]\nscene = \"seed\"\ntext = \"b\"\npixel = [40, 0]",
+        "title = \"a\"\n[[page]]\nscene = \"trio\"\ntext = \"b\"\npixel = [4, 0]",
+        "title = \"a\"\n[[page]]\nscene = \"trio\"\ntext = \"b\"\nset = [\"radius −1\"]",
+        "title = \"a\"\n[[page]]\nscene = \"trio\"\ntext = \"b\"\nsphere = 0",
+        "title = \"a\"\n[[page]]\nscene = '''\n[camera]\nposition = 1\n'''\ntext = \"b\"",
+        "title = \"a\"\n[[page]]\nscene = \"trio\"\ntext = \"b\"\ncolour = 1",
+    ]
+    .map(refused)
+    .join("\n");
+    insta::assert_snapshot!(said);
+}
+
+#[test]
+fn a_teachers_folder_is_a_tour() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write =
+        |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("written");
+    write(
+        "ball.toml",
+        &Scene::open("seed").expect("a scene").0.to_toml(),
+    );
+    fs::create_dir(folder.path().join("lessons")).expect("a folder");
+    write(
+        "lessons/2-second.toml",
+        "title = \"the second\"\n[[page]]\nscene = \"../ball.toml\"\nset = [\"radius 5\"]\n\
+         text = \"One.\\n\\nTwo.\"\ntry = \"Three.\"",
+    );
+    write(
+        "lessons/1-first.toml",
+        "title = \"the first\"\n[[page]]\nscene = \"trio\"\ntext = \"Zero.\"",
+    );
+    let chapters = tour::load(&folder.path().join("lessons")).expect("chapters");
+    let names: Vec<_> = chapters.iter().map(|c| c.name.as_str()).collect();
+    assert_eq!(names, ["first", "second"]);
+    let mut student = Student::opens("seed", SMALL, Options::default());
+    student.explorer.start_tour(chapters, 1, 0);
+    student.shows("2/2: the second, page 1/1").shows("r 5");
+    student.shows("One. Two. Try: Three.");
+    let said = tour::load(folder.path())
+        .expect_err("no chapter")
+        .to_string();
+    assert!(said.contains("ball.toml:2:1: unknown field"), "{said}");
+    assert!(tour::load(Path::new("/no/such/chapter.toml")).is_err());
+}
