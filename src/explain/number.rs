@@ -40,6 +40,7 @@ impl Glyphs {
                 'Δ' => out.push_str("disc"),
                 'θ' => out.push_str("theta"),
                 'κ' => out.push_str("kappa"),
+                '÷' => out.push('/'),
                 '±' => out.push_str("+-"),
                 '≥' => out.push_str(">="),
                 '≤' => out.push_str("<="),

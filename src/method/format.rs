@@ -56,10 +56,11 @@ impl Signs {
 }
 
 /// What stands for the signs of mathematics where there is only ASCII.
-const ASCII: [(char, &str); 17] = [
+const ASCII: [(char, &str); 18] = [
     ('−', "-"),
     ('·', "*"),
     ('×', "x"),
+    ('÷', "/"),
     ('±', "+-"),
     ('√', "sqrt "),
     ('²', "^2"),
