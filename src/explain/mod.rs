@@ -9,6 +9,7 @@ mod derivation;
 mod figure;
 mod number;
 mod panel;
+mod plan;
 mod steps;
 
 use glam::{DVec3, Vec3};
@@ -22,6 +23,7 @@ pub use derivation::{Drawn, Question, Step, derivation};
 pub use figure::{Float, Ink, bits, curve, slice};
 pub use number::{Digits, Glyphs, number, vector};
 pub use panel::{Line, Role, Span, fit, lines, plain_text};
+pub use plan::{plan_panel, plan_text};
 pub use steps::{StepLook, question_lines, step_lines, step_list, steps_text, wrap};
 
 /// What the ray of one pixel finds in a scene.

@@ -214,6 +214,8 @@ actions! {
     PanelBits "panel-bits" ["5"] Steps;
     /// panel: the chosen method beside another
     PanelCompare "panel-compare" ["6"] Steps;
+    /// panel: what this frame needed, what was left out, and why
+    PanelPlan "panel-plan" ["8"] Steps;
     /// open the steps; go to the next one, or reveal its answer
     NextStep "next-step" ["enter", "."] Steps;
     /// previous step

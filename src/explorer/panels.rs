@@ -10,6 +10,7 @@ use super::panel::Panel;
 use super::stepping::Prediction;
 use super::theme::Theme;
 use crate::explain::{self, Line, Reading, StepLook, Subject};
+use crate::render;
 
 impl Explorer {
     /// All panels that have room.
@@ -30,6 +31,7 @@ impl Explorer {
             Panel::Slice | Panel::Curve => self.figure_panel(panel, reading, room),
             Panel::Bits => self.bits_panel(room),
             Panel::Compare => self.compare_panel(reading, room),
+            Panel::Plan => self.plan_panel(room),
         };
         // Only the panel that the person asked for scrolls.
         let hidden = lines.len().saturating_sub(room.height.into());
@@ -57,6 +59,7 @@ impl Explorer {
             Panel::Slice | Panel::Curve => "( ) move along the ray  / back".into(),
             Panel::Bits => ", . another number".into(),
             Panel::Compare => "C another method".into(),
+            Panel::Plan => String::new(),
             Panel::Quadratic => String::new(),
         }
     }
@@ -145,6 +148,29 @@ impl Explorer {
         let Subject { trace, sphere, .. } = subject;
         let other = self.other_method().trace(&reading.ray, sphere);
         (title, explain::comparison(trace, &other, room.width.into()))
+    }
+
+    /// What the picture on the screen needed, of whatever frame it is.
+    fn plan_panel(&self, room: Rect) -> (String, Vec<Line>) {
+        let plan = self.picture.plan();
+        let title = format!("plan: {} {}", plan.method(), plan.view().name());
+        let mut lines = plan.lines();
+        lines.extend(self.picture.plan_of_cells());
+        lines.push(render::Line::new(
+            "cursor's ray",
+            self.scene().bodies.len() as u64,
+            0,
+            "asked about every sphere for the panel; while the cursor moves nothing else is asked",
+        ));
+        if let Some([sent, all]) = self.sent {
+            lines.push(render::Line::new(
+                "bytes, last frame",
+                sent,
+                all.saturating_sub(sent),
+                "cells that the terminal shows already are not sent; left out is what is spared against the largest frame so far",
+            ));
+        }
+        (title, explain::plan_panel(&lines, room.width.into()))
     }
 
     /// One step as large as the screen allows; its answer hidden until the key.

@@ -1,12 +1,15 @@
-//! Several binary64 side by side, so that one formula runs for several pixels or spheres at once.
+//! Several numbers side by side, so that one formula runs for several pixels or spheres at once.
 //!
 //! An operation is a loop over a small array, which compilers turn into vector instructions. Each
 //! lane is rounded as a single number would be, so a formula gives the same bits either way.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// How many numbers go side by side.
+/// How many binary64 go side by side.
 pub(super) const LANES: usize = 4;
+
+/// How many binary32 go side by side.
+pub(super) const SINGLES: usize = 8;
 
 /// What a formula asks of one number or of several in lanes.
 pub(super) trait Real:
@@ -17,7 +20,7 @@ pub(super) trait Real:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// The same number in every lane.
+    /// The same number, rounded, in every lane.
     fn of(value: f64) -> Self;
     /// The square root, rounded once.
     fn sqrt(self) -> Self;
@@ -31,88 +34,51 @@ pub(super) trait Real:
     fn where_negative(self, sign: Self, other: Self) -> Self;
 }
 
-impl Real for f64 {
-    #[inline(always)]
-    fn of(value: f64) -> Self {
-        value
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        self.sqrt()
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        self.abs()
-    }
-    #[inline(always)]
-    fn at_least(self, least: f64) -> Self {
-        if self > least { self } else { least }
-    }
-    #[inline(always)]
-    fn at_most(self, most: f64) -> Self {
-        if self < most { self } else { most }
-    }
-    #[inline(always)]
-    fn where_negative(self, sign: Self, other: Self) -> Self {
-        if sign < 0.0 { self } else { other }
-    }
+macro_rules! number {
+    ($number:ty) => {
+        impl Real for $number {
+            #[inline(always)]
+            fn of(value: f64) -> Self {
+                value as Self
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                self.sqrt()
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                self.abs()
+            }
+            #[inline(always)]
+            fn at_least(self, least: f64) -> Self {
+                if self > least as Self {
+                    self
+                } else {
+                    least as Self
+                }
+            }
+            #[inline(always)]
+            fn at_most(self, most: f64) -> Self {
+                if self < most as Self {
+                    self
+                } else {
+                    most as Self
+                }
+            }
+            #[inline(always)]
+            fn where_negative(self, sign: Self, other: Self) -> Self {
+                if sign < 0.0 { self } else { other }
+            }
+        }
+    };
 }
 
-/// Numbers side by side.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Lanes(pub [f64; LANES]);
+number!(f32);
+number!(f64);
 
-impl Lanes {
-    #[inline(always)]
-    fn each(f: impl Fn(usize) -> f64) -> Self {
-        Self(std::array::from_fn(f))
-    }
-
-    /// The binary32 numbers from place `i` on.
-    #[inline(always)]
-    pub(super) fn load(from: &[f32], i: usize) -> Self {
-        let from: &[f32] = &from[i..i + LANES];
-        Self::each(|l| from[l].into())
-    }
-
-    /// The binary64 numbers from place `i` on.
-    #[inline(always)]
-    pub(super) fn load_double(from: &[f64], i: usize) -> Self {
-        let from: &[f64] = &from[i..i + LANES];
-        Self::each(|l| from[l])
-    }
-}
-
-impl Real for Lanes {
-    #[inline(always)]
-    fn of(value: f64) -> Self {
-        Self([value; LANES])
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        Self::each(|l| self.0[l].sqrt())
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Self::each(|l| self.0[l].abs())
-    }
-    #[inline(always)]
-    fn at_least(self, least: f64) -> Self {
-        Self::each(|l| self.0[l].at_least(least))
-    }
-    #[inline(always)]
-    fn at_most(self, most: f64) -> Self {
-        Self::each(|l| self.0[l].at_most(most))
-    }
-    #[inline(always)]
-    fn where_negative(self, sign: Self, other: Self) -> Self {
-        Self::each(|l| self.0[l].where_negative(sign.0[l], other.0[l]))
-    }
-}
-
-macro_rules! operator {
-    ($($trait:ident $name:ident),*) => {$(
-        impl $trait for Lanes {
+macro_rules! operators {
+    ($lanes:ident: $($trait:ident $name:ident),*) => {$(
+        impl $trait for $lanes {
             type Output = Self;
             #[inline(always)]
             fn $name(self, other: Self) -> Self {
@@ -122,13 +88,86 @@ macro_rules! operator {
     )*};
 }
 
-operator!(Add add, Sub sub, Mul mul, Div div);
+macro_rules! lanes {
+    ($lanes:ident, $number:ty, $count:ident) => {
+        impl $lanes {
+            #[inline(always)]
+            fn each(f: impl Fn(usize) -> $number) -> Self {
+                Self(std::array::from_fn(f))
+            }
 
-impl Neg for Lanes {
-    type Output = Self;
+            /// The binary32 numbers from place `i` on.
+            #[inline(always)]
+            pub(super) fn load(from: &[f32], i: usize) -> Self {
+                let from: &[f32] = &from[i..i + $count];
+                Self::each(|l| from[l].into())
+            }
+        }
+
+        impl Real for $lanes {
+            #[inline(always)]
+            fn of(value: f64) -> Self {
+                Self([value as $number; $count])
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                Self::each(|l| self.0[l].sqrt())
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                Self::each(|l| self.0[l].abs())
+            }
+            #[inline(always)]
+            fn at_least(self, least: f64) -> Self {
+                Self::each(|l| self.0[l].at_least(least))
+            }
+            #[inline(always)]
+            fn at_most(self, most: f64) -> Self {
+                Self::each(|l| self.0[l].at_most(most))
+            }
+            #[inline(always)]
+            fn where_negative(self, sign: Self, other: Self) -> Self {
+                Self::each(|l| self.0[l].where_negative(sign.0[l], other.0[l]))
+            }
+        }
+
+        operators!($lanes: Add add, Sub sub, Mul mul, Div div);
+
+        impl Neg for $lanes {
+            type Output = Self;
+            #[inline(always)]
+            fn neg(self) -> Self {
+                Self::each(|l| -self.0[l])
+            }
+        }
+    };
+}
+
+/// Binary64 numbers side by side.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lanes(pub [f64; LANES]);
+
+/// Binary32 numbers side by side.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Singles(pub [f32; SINGLES]);
+
+lanes!(Lanes, f64, LANES);
+lanes!(Singles, f32, SINGLES);
+
+impl Lanes {
+    /// The binary64 numbers from place `i` on.
     #[inline(always)]
-    fn neg(self) -> Self {
-        Self::each(|l| -self.0[l])
+    pub(super) fn load_double(from: &[f64], i: usize) -> Self {
+        let from: &[f64] = &from[i..i + LANES];
+        Self::each(|l| from[l])
+    }
+}
+
+impl Singles {
+    /// The same number in every lane.
+    #[inline(always)]
+    pub(super) const fn all(value: f32) -> Self {
+        Self([value; SINGLES])
     }
 }
 
