@@ -27,6 +27,9 @@ pub(super) struct Ink {
 /// What marks a pixel for which a method has no answer.
 pub(super) const NO_ANSWER: char = '?';
 
+/// What marks a pixel that is wrong and not only inexact.
+pub(super) const WRONG: char = '!';
+
 /// From dark to bright. Even the darkest is no blank: it is a hit.
 const RAMP: &[u8] = b".,:-=+*#%@";
 
@@ -45,9 +48,9 @@ const LEFT: usize = 0b10;
 const RIGHT: usize = 0b01;
 
 impl Ink {
-    /// Whether the method has no answer here.
-    pub(super) fn is_no_answer(&self) -> bool {
-        self.glyph == NO_ANSWER
+    /// Whether the method has no answer here, or a wrong one: every style shows that by its glyph.
+    pub(super) fn is_alarm(&self) -> bool {
+        [NO_ANSWER, WRONG].contains(&self.glyph)
     }
 
     /// Which of several pixels gives its colour to the cell: what is rare, then what is bright.
@@ -228,7 +231,7 @@ fn delta(frame: &Frame, x: u32, y: u32) -> Option<Tone> {
 
 fn lost(frame: &Frame, x: u32, y: u32) -> Option<Tone> {
     let (glyph, level, quarters, rarity, base) = match frame.lost(x, y)? {
-        Lost::Everything => ('!', 1.0, FULL, 2, PURPLE),
+        Lost::Everything => (WRONG, 1.0, FULL, 2, PURPLE),
         Lost::Bits(0.0) => ('.', 0.2, RIGHT, 0, WHITE),
         Lost::Bits(bits) => {
             let whole = (bits.ceil() as u32).clamp(1, 24);
