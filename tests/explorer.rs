@@ -2,13 +2,16 @@
 
 use std::fs;
 use std::sync::OnceLock;
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
 
 use proptest::prelude::*;
 use ratatui::buffer::Buffer;
 use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 use ratatui::layout::Rect;
 use rayscope::explorer::action::{Action, markdown};
-use rayscope::explorer::{Explorer, Options};
+use rayscope::explorer::{Explorer, Options, Waker};
+use rayscope::lab::Alone;
 use rayscope::method::Method;
 use rayscope::render::{ColorDepth, Style};
 use rayscope::scene::Scene;
@@ -410,6 +413,99 @@ fn the_board_shows_one_step_and_hides_its_answer() {
     insta::assert_snapshot!("board_hidden_80x24", hidden);
     insta::assert_snapshot!("board_revealed_80x24", revealed);
     person.presses("O").shows("view 40×40");
+}
+
+impl Person {
+    /// Has the picture measured, waiting for others on this host to finish theirs.
+    fn measures(&mut self) -> &mut Self {
+        let woken = self.hears_the_waker();
+        let deadline = Instant::now() + PATIENCE;
+        loop {
+            self.presses("%");
+            woken.recv_timeout(PATIENCE).expect("a wake-up");
+            assert!(self.explorer.catch_up());
+            if !self.screen().contains("Another explorer") {
+                return self;
+            }
+            assert!(Instant::now() < deadline, "{}", self.screen());
+        }
+    }
+
+    fn hears_the_waker(&mut self) -> Receiver<()> {
+        let (ring, woken) = channel();
+        self.explorer.wake_by(Waker::new(move || {
+            let _ = ring.send(());
+        }));
+        woken
+    }
+}
+
+/// How long anything may take before it counts as not happening.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// The right to measure, once others on this host have given it back.
+fn alone() -> Alone {
+    let deadline = Instant::now() + PATIENCE;
+    loop {
+        if let Some(alone) = Alone::take().expect("a lock") {
+            return alone;
+        }
+        assert!(Instant::now() < deadline, "somebody measures all the time");
+        std::thread::yield_now();
+    }
+}
+
+#[test]
+fn error_against_run_time_is_charted_when_asked() {
+    let mut person = Person::opens("far", 80, 24);
+    person.presses("7").shows("Press % to time all");
+    person.measures().shows("ns  99 % of the errors");
+    // Most of the lines that textbook and citardauq answer wrongly, and none that exact does.
+    let screen = person.screen();
+    let rate = |name: &str| {
+        let line = screen.lines().find(|line| line.contains(name));
+        let words = line.and_then(|line| line.split_once(name));
+        let (_, words) = words.unwrap_or_else(|| panic!("no {name} on\n{screen}"));
+        words.split_whitespace().next().map(str::to_owned)
+    };
+    assert_eq!(rate("e exact"), Some("0".into()));
+    let textbook: f64 = rate("t textbook").unwrap().parse().unwrap();
+    assert!(textbook > 20.0, "{screen}");
+    assert_eq!(rate("c citardauq"), rate("t textbook"));
+}
+
+#[test]
+fn a_chart_of_another_picture_says_that_it_is_stale() {
+    let mut person = Person::opens("trio", 80, 24);
+    person.measures();
+    assert!(!person.screen().contains("STALE"));
+    person.presses("m v");
+    assert!(!person.screen().contains("STALE"), "the same questions");
+    person.presses("x").shows("STALE");
+    person.presses("u");
+    assert!(!person.screen().contains("STALE"), "the same picture again");
+    person.size = (100, 30);
+    person.shows("STALE");
+    person.commands("open far").presses("7").shows("STALE");
+}
+
+#[test]
+fn two_do_not_measure_at_once_and_one_can_be_stopped() {
+    let mut person = Person::opens("trio", 80, 24);
+    let woken = person.hears_the_waker();
+    let other = alone();
+    person.presses("%");
+    woken.recv_timeout(PATIENCE).expect("a wake-up");
+    assert!(person.explorer.catch_up());
+    person.shows("Another explorer on this host is");
+    drop(other);
+    person.measures();
+    person.presses("% %").shows("The measurement was stopped");
+    assert!(
+        !person.explorer.catch_up(),
+        "what was stopped comes to nothing"
+    );
+    person.presses("1").shows("ray of pixel");
 }
 
 #[test]

@@ -94,6 +94,7 @@ impl Explorer {
             Action::PanelCurve => self.panel = Panel::Curve,
             Action::PanelBits => self.panel = Panel::Bits,
             Action::PanelCompare => self.panel = Panel::Compare,
+            Action::PanelError => self.panel = Panel::Error,
             Action::NextStep => self.next_step(),
             Action::PreviousStep => self.go_to_step(self.step_at.saturating_sub(1)),
             Action::FirstStep => self.go_to_step(0),
@@ -104,6 +105,8 @@ impl Explorer {
             Action::ScrubBack => self.scrub(-1.0),
             Action::ScrubHome => self.scrubbed = None,
             Action::NextComparison => self.turn_comparison(),
+
+            Action::Measure => self.measure(),
 
             Action::TourForward => self.tour_forward(),
             Action::TourBack => self.tour_back(),
@@ -130,7 +133,10 @@ impl Explorer {
                 self.prompt(Purpose::SaveAs, &suggestion);
             }
             Action::Link => self.pass_on(),
-            Action::Suspend => self.request = Some(Request::Suspend),
+            Action::Suspend => {
+                self.stop_measuring();
+                self.request = Some(Request::Suspend);
+            }
             Action::Quit => self.quit(),
         }
     }

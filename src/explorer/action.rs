@@ -18,6 +18,8 @@ pub enum Group {
     View,
     /// Walking through the mathematics of one pixel.
     Steps,
+    /// Errors and times of the methods on this picture.
+    Laboratory,
     /// Walking through the chapters that tell it all.
     Tour,
     /// Files, history, the program itself.
@@ -26,12 +28,13 @@ pub enum Group {
 
 impl Group {
     /// All groups, in the order of the help page.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Cursor,
         Self::Camera,
         Self::Spheres,
         Self::View,
         Self::Steps,
+        Self::Laboratory,
         Self::Tour,
         Self::Program,
     ];
@@ -44,6 +47,7 @@ impl Group {
             Self::Spheres => "Spheres",
             Self::View => "View",
             Self::Steps => "Step by step",
+            Self::Laboratory => "Errors and times",
             Self::Tour => "Tour",
             Self::Program => "Program",
         }
@@ -214,6 +218,8 @@ actions! {
     PanelBits "panel-bits" ["5"] Steps;
     /// panel: the chosen method beside another
     PanelCompare "panel-compare" ["6"] Steps;
+    /// panel: error against run time for this picture
+    PanelError "panel-error" ["7"] Steps;
     /// open the steps; go to the next one, or reveal its answer
     NextStep "next-step" ["enter", "."] Steps;
     /// previous step
@@ -234,6 +240,9 @@ actions! {
     ScrubHome "scrub-home" ["/"] Steps;
     /// compare with the next method
     NextComparison "next-comparison" ["C"] Steps;
+
+    /// time all methods on this picture, on a thread of its own; again: stop
+    Measure "measure" ["%"] Laboratory;
 
     /// open the tour; go to its next page
     TourForward "tour-forward" ["f"] Tour;
@@ -298,7 +307,7 @@ pub const FOOTER: &[(&str, &str)] = &[
     (":", "command"),
     ("?", "help"),
     ("q", "quit"),
-    ("1-6", "panels"),
+    ("1-9", "panels"),
     ("b", "style"),
     ("xyz", "move"),
     ("g", "grow"),

@@ -16,6 +16,7 @@ mod key;
 mod large;
 mod layout;
 mod link;
+mod measuring;
 mod mode;
 mod motion;
 mod panel;
@@ -38,11 +39,13 @@ use crate::render::{ColorDepth, Style, View};
 use crate::scene::{Scene, Size, Source};
 
 pub use link::{Opening, command_line};
+pub use measuring::Waker;
 pub use panel::Panel;
 
 use arrival::Arrival;
 use document::Document;
 use key::Key;
+use measuring::Measuring;
 use mode::{Message, Mode, Prompt, Purpose};
 use picture::Picture;
 use prompt::Line;
@@ -120,6 +123,7 @@ pub struct Explorer {
     tour: Option<Tour>,
     /// Where the person was when the tour was put away.
     put_away: Option<Bookmark>,
+    measuring: Measuring,
     ended: Option<u8>,
 }
 
@@ -167,6 +171,7 @@ impl Explorer {
             arrival: Arrival::default(),
             tour: None,
             put_away: None,
+            measuring: Measuring::default(),
             ended: None,
         }
     }

@@ -18,6 +18,8 @@ pub enum Panel {
     Bits,
     /// The methods side by side.
     Compare,
+    /// Error against run time for this picture.
+    Error,
 }
 
 /// The least width and height that a panel is useful in.
@@ -26,13 +28,14 @@ const LEAST: (u16, u16) = (46, 21);
 impl Panel {
     /// All panels, in the order of their keys, which is also the order in which they fill what room
     /// there is.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Quadratic,
         Self::Steps,
         Self::Slice,
         Self::Curve,
         Self::Bits,
         Self::Compare,
+        Self::Error,
     ];
 
     /// The name on the command line.
@@ -44,6 +47,7 @@ impl Panel {
             Self::Curve => "curve",
             Self::Bits => "bits",
             Self::Compare => "compare",
+            Self::Error => "error",
         }
     }
 

@@ -30,6 +30,7 @@ impl Explorer {
             Panel::Slice | Panel::Curve => self.figure_panel(panel, reading, room),
             Panel::Bits => self.bits_panel(room),
             Panel::Compare => self.compare_panel(reading, room),
+            Panel::Error => self.error_panel(room),
         };
         // Only the panel that the person asked for scrolls.
         let hidden = lines.len().saturating_sub(room.height.into());
@@ -57,6 +58,8 @@ impl Explorer {
             Panel::Slice | Panel::Curve => "( ) move along the ray  / back".into(),
             Panel::Bits => ", . another number".into(),
             Panel::Compare => "C another method".into(),
+            Panel::Error if self.measuring.is_running() => "% stop".into(),
+            Panel::Error => "% measure".into(),
             Panel::Quadratic => String::new(),
         }
     }
@@ -145,6 +148,20 @@ impl Explorer {
         let Subject { trace, sphere, .. } = subject;
         let other = self.other_method().trace(&reading.ray, sphere);
         (title, explain::comparison(trace, &other, room.width.into()))
+    }
+
+    /// Error against run time, and whether it can be believed.
+    fn error_panel(&self, room: Rect) -> (String, Vec<Line>) {
+        let title = "error against run time".to_owned();
+        let width = room.width.into();
+        let mut lines = self.measuring.remarks(width);
+        if let Some(chart) = &self.measuring.chart {
+            let rows = usize::from(room.height).saturating_sub(lines.len());
+            let chapters = chart.report.chapters.iter();
+            let glyphs = self.options.glyphs;
+            lines.extend(chapters.flat_map(|c| explain::work(c, width, rows, glyphs)));
+        }
+        (title, lines)
     }
 
     /// One step as large as the screen allows; its answer hidden until the key.

@@ -47,8 +47,10 @@ impl Explorer {
                 self.leave_tour();
                 let (screen, options) = (self.screen, self.options);
                 let (rescue, put_away) = (self.rescue.take(), self.put_away.take());
+                let measuring = std::mem::take(&mut self.measuring);
                 *self = Self::new(scene, &source, options);
                 (self.screen, self.put_away) = (screen, put_away);
+                self.measuring = measuring;
                 if let Some(rescue) = rescue {
                     self.keep_in(&rescue.folder, &source);
                 }

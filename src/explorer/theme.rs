@@ -48,7 +48,7 @@ impl Theme {
     /// A part of a figure. Letters and dash patterns tell the parts apart, too.
     fn ink(self, ink: Ink) -> Style {
         match ink {
-            Ink::Axis | Ink::Radius => Style::new().add_modifier(Modifier::DIM),
+            Ink::Axis | Ink::Pareto | Ink::Radius => Style::new().add_modifier(Modifier::DIM),
             Ink::Behind => self.hue(Color::Yellow).add_modifier(Modifier::DIM),
             Ink::Circle | Ink::Curve => self.hue(Color::LightCyan),
             Ink::Ray => self.hue(Color::LightYellow),

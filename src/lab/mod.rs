@@ -2,6 +2,7 @@
 //!
 //! Nothing here knows a terminal; the command line and the explorer print what is found.
 
+mod alone;
 pub mod bench;
 pub mod dials;
 mod errors;
@@ -19,6 +20,7 @@ pub mod stress;
 pub mod timing;
 mod turn;
 
+pub use alone::Alone;
 pub use dials::Dial;
 pub use errors::{
     Census, Checksum, Errors, Fault, Judgement, Percentiles, RootError, Worst, Wrong, judge,

@@ -1,8 +1,8 @@
 //! The errors of one picture: pixel by pixel against `exact`, and charted against run time.
 
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, TryLockError};
 
+use super::alone::Alone;
 use super::bench::{self, MOST_TIMED, Plan, Report, Sample};
 use super::errors::Fault;
 use super::stress::bits_lost;
@@ -69,27 +69,31 @@ fn root_error(hit: Hit, right: Hit) -> PixelError {
 }
 
 /// Why there is no chart.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum NoChart {
-    /// Another chart is being timed in this program: two at once would disturb each other.
+    /// Somebody else on this host is measuring: two at once would disturb each other.
     Busy,
     /// It was told to stop.
     Cancelled,
     /// The picture has no sphere to ask about.
     Empty,
+    /// The system did not let it begin, for this reason.
+    Failed(String),
 }
 
 /// What the questions of a picture with very many are drawn from.
 const SEED: u64 = 1;
 
-/// Charts all methods on the questions that a picture asks; a second or so, to be run on a thread of
-/// its own. `cancel` ends it early.
+/// How often each method is timed: a tenth of a second on a quiet machine.
+const ROUNDS: usize = 101;
+
+/// Charts all methods on the questions that a picture asks, to be run on a thread of its own.
+/// `cancel` ends it early.
 pub fn chart(scene: &Scene, rays: &Rays, cancel: &AtomicBool) -> Result<Report, NoChart> {
-    static TIMING: Mutex<()> = Mutex::new(());
-    let _alone = match TIMING.try_lock() {
-        Ok(guard) => guard,
-        Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
-        Err(TryLockError::WouldBlock) => return Err(NoChart::Busy),
+    let _alone = match Alone::take() {
+        Ok(Some(alone)) => alone,
+        Ok(None) => return Err(NoChart::Busy),
+        Err(error) => return Err(NoChart::Failed(error.to_string())),
     };
     let sample = Sample::of_scene(scene, rays, SEED, MOST_TIMED);
     if sample.problems.is_empty() {
@@ -98,7 +102,7 @@ pub fn chart(scene: &Scene, rays: &Rays, cancel: &AtomicBool) -> Result<Report, 
     let plan = Plan {
         methods: &Method::ALL,
         schedule: Schedule {
-            rounds: 15,
+            rounds: ROUNDS,
             seed: SEED,
         },
     };
