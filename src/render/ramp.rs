@@ -168,12 +168,11 @@ impl Perceived {
         colors.min_by(|(_, a), (_, b)| self.distance(*a).total_cmp(&self.distance(*b)))
     }
 
-    /// The square of a distance in which hue counts most: a shade may be paler, not of another hue.
+    /// The square of a distance in which colour counts more than lightness: a shade may be somewhat
+    /// lighter or darker, not paler or of another hue.
     fn distance(self, other: Self) -> f32 {
         let lightness = (self.lightness - other.lightness).powi(2);
-        let chroma = (self.chroma() - other.chroma()).powi(2);
-        let hue = (self.a - other.a).powi(2) + (self.b - other.b).powi(2) - chroma;
-        lightness + 2.0 * chroma + 4.0 * hue
+        lightness + 4.0 * ((self.a - other.a).powi(2) + (self.b - other.b).powi(2))
     }
 }
 
