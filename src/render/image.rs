@@ -120,7 +120,7 @@ impl Painter<'_> {
 
     /// What is to be seen at pixel (x, y); nothing where nothing is.
     fn ink(&mut self, x: u32, y: u32) -> Option<Ink> {
-        ink(self.frame, self.scene, self.look.depth, self.ramps, (x, y))
+        ink(self.frame, self.scene, self.look, self.ramps, (x, y))
     }
 
     /// Whether levels are shown by how many dots there are, for want of colours.

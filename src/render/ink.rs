@@ -4,8 +4,9 @@ use glam::Vec3;
 
 use super::color::color_of;
 use super::frame::FARTHEST_MISS;
+use super::image::Look;
 use super::ramp::Ramps;
-use super::{ColorDepth, Contact, Frame, Lost, View};
+use super::{ColorDepth, Contact, Frame, Lost, Style, View};
 use crate::method::exact::Stage;
 use crate::scene::{Rgb, Scene};
 
@@ -72,12 +73,15 @@ struct Tone {
 pub(super) fn ink(
     frame: &Frame,
     scene: &Scene,
-    depth: ColorDepth,
+    look: Look,
     ramps: &mut Ramps,
     (x, y): (u32, u32),
 ) -> Option<Ink> {
     let contact = frame.contact(x, y);
-    let colored = depth != ColorDepth::None;
+    let colored = look.depth != ColorDepth::None;
+    // A character says how bright it is: with one colour a sphere it is read more easily, and far
+    // fewer changes of colour go over the line.
+    let level_is_in_glyph = look.style == Style::Ascii;
     if contact == Contact::Nan || frame.view() == View::Class {
         return of_class(contact, colored);
     }
@@ -97,7 +101,8 @@ pub(super) fn ink(
         rarity: tone.rarity,
         color: colored.then(|| {
             let shades = ramps.of(tone.base);
-            shades[step(tone.level, shades.len())]
+            let level = if level_is_in_glyph { 1.0 } else { tone.level };
+            shades[step(level, shades.len())]
         }),
     })
 }
