@@ -2,16 +2,20 @@
 
 use std::fs;
 use std::sync::OnceLock;
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
 
 use proptest::prelude::*;
 use ratatui::buffer::Buffer;
 use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 use ratatui::layout::Rect;
 use rayscope::explorer::action::{Action, markdown};
-use rayscope::explorer::{Explorer, Options};
-use rayscope::method::Method;
+use rayscope::explorer::{Explorer, Options, Waker};
+use rayscope::geometry::Ray;
+use rayscope::lab::Alone;
+use rayscope::method::{Class, Method};
 use rayscope::render::{ColorDepth, Style};
-use rayscope::scene::Scene;
+use rayscope::scene::{PixelShape, Rays, Scene, Size};
 
 /// An explorer with a screen.
 struct Person {
@@ -410,6 +414,218 @@ fn the_board_shows_one_step_and_hides_its_answer() {
     insta::assert_snapshot!("board_hidden_80x24", hidden);
     insta::assert_snapshot!("board_revealed_80x24", revealed);
     person.presses("O").shows("view 40×40");
+}
+
+impl Person {
+    /// Has the picture measured, waiting for others on this host to finish theirs.
+    fn measures(&mut self) -> &mut Self {
+        let woken = self.hears_the_waker();
+        let deadline = Instant::now() + PATIENCE;
+        loop {
+            self.presses("%");
+            woken.recv_timeout(PATIENCE).expect("a wake-up");
+            assert!(self.explorer.catch_up());
+            if !self.screen().contains("Another explorer") {
+                return self;
+            }
+            assert!(Instant::now() < deadline, "{}", self.screen());
+        }
+    }
+
+    fn hears_the_waker(&mut self) -> Receiver<()> {
+        let (ring, woken) = channel();
+        self.explorer.wake_by(Waker::new(move || {
+            let _ = ring.send(());
+        }));
+        woken
+    }
+}
+
+/// How long anything may take before it counts as not happening.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// The right to measure, once others on this host have given it back.
+fn alone() -> Alone {
+    let deadline = Instant::now() + PATIENCE;
+    loop {
+        if let Some(alone) = Alone::take().expect("a lock") {
+            return alone;
+        }
+        assert!(Instant::now() < deadline, "somebody measures all the time");
+        std::thread::yield_now();
+    }
+}
+
+#[test]
+fn error_against_run_time_is_charted_when_asked() {
+    let mut person = Person::opens("far", 80, 24);
+    person.presses("7").shows("Press % to time all");
+    person.measures().shows("ns  99 % of the errors");
+    // Most of the lines that textbook and citardauq answer wrongly, and none that exact does.
+    let screen = person.screen();
+    let rate = |name: &str| {
+        let line = screen.lines().find(|line| line.contains(name));
+        let words = line.and_then(|line| line.split_once(name));
+        let (_, words) = words.unwrap_or_else(|| panic!("no {name} on\n{screen}"));
+        words.split_whitespace().next().map(str::to_owned)
+    };
+    assert_eq!(rate("e exact"), Some("0".into()));
+    let textbook: f64 = rate("t textbook").unwrap().parse().unwrap();
+    assert!(textbook > 20.0, "{screen}");
+    assert_eq!(rate("c citardauq"), rate("t textbook"));
+}
+
+#[test]
+fn a_chart_of_another_picture_says_that_it_is_stale() {
+    let mut person = Person::opens("trio", 80, 24);
+    person.measures();
+    assert!(!person.screen().contains("STALE"));
+    person.presses("m v");
+    assert!(!person.screen().contains("STALE"), "the same questions");
+    person.presses("x").shows("STALE");
+    person.presses("u");
+    assert!(!person.screen().contains("STALE"), "the same picture again");
+    person.size = (100, 30);
+    person.shows("STALE");
+    person.commands("open far").presses("7").shows("STALE");
+}
+
+#[test]
+fn two_do_not_measure_at_once_and_one_can_be_stopped() {
+    let mut person = Person::opens("trio", 80, 24);
+    let woken = person.hears_the_waker();
+    let other = alone();
+    person.presses("%");
+    woken.recv_timeout(PATIENCE).expect("a wake-up");
+    assert!(person.explorer.catch_up());
+    person.shows("Another explorer on this host is");
+    drop(other);
+    person.measures();
+    person.presses("% %").shows("The measurement was stopped");
+    assert!(
+        !person.explorer.catch_up(),
+        "what was stopped comes to nothing"
+    );
+    person.presses("1").shows("ray of pixel");
+}
+
+fn ascii_textbook() -> Options {
+    Options {
+        style: Style::Ascii,
+        ..textbook()
+    }
+}
+
+/// The nearest visible hit of all spheres: which, where, and whether it touches.
+fn seen(scene: &Scene, ray: &Ray, method: Method) -> Option<(usize, f32, bool)> {
+    let hits = scene.bodies.iter().enumerate().filter_map(|(i, body)| {
+        let answer = method.solve(ray, &body.sphere);
+        Some((i, answer.visible()?, answer.class == Class::Tangent))
+    });
+    hits.reduce(|first, hit| if hit.1 < first.1 { hit } else { first })
+}
+
+#[test]
+fn a_dial_marks_exactly_what_the_method_gets_wrong() {
+    let mut person = Person::with("trio", 80, 24, ascii_textbook());
+    assert!(!person.screen().contains('!'));
+    for (k, least) in [(1, 0), (6, 1), (9, 300)] {
+        let screen = person.commands(&format!("dial distance {k}")).screen();
+        let scene = person.explorer.scene().clone();
+        let rays = Rays::new(&scene.camera, Size::new(40, 20), PixelShape::Aspect(2.0));
+        let mut wrong = 0;
+        for (y, line) in (0..20).zip(screen.lines().skip(2)) {
+            for (x, shown) in (0..40).zip(line.chars().skip(1)) {
+                let ray = rays.ray(x, y);
+                let [found, truth] =
+                    [Method::Textbook, Method::Exact].map(|m| seen(&scene, &ray, m));
+                // No hit is so far off here that all of its bits are lost.
+                let right = found.map(|f| (f.0, f.2)) == truth.map(|t| (t.0, t.2));
+                assert_eq!(shown == '!', !right, "({x}, {y}) at 2^{k}\n{screen}");
+                wrong += usize::from(!right);
+            }
+        }
+        assert!(wrong >= least, "{wrong} at 2^{k}");
+        let said = match wrong {
+            0 => "no pixel wrong".into(),
+            _ => format!("textbook: {wrong} of 800"),
+        };
+        person.shows(&said);
+    }
+    person.shows("textbook broke at ‖o‖/r × 2^");
+    // exact is right at every setting.
+    person
+        .commands("method exact")
+        .shows("exact does not break");
+    assert!(!person.screen().contains('!'));
+}
+
+#[test]
+fn a_dial_is_turned_back_to_the_scene_as_it_was() {
+    let mut person = Person::with("trio", 80, 24, ascii_textbook());
+    let (before, screen) = (person.explorer.scene().clone(), person.screen());
+    person.presses("9 \\ \\ \\").shows("‖o‖/r × 2^3");
+    person.presses("| |").shows("‖o‖/r × 2^1");
+    person.presses("|").shows("The scene is as it was.");
+    assert_eq!(*person.explorer.scene(), before);
+    person.presses("|").shows("No dial is turned");
+    // The next dial takes the one before back.
+    person.presses("\\ 9").shows("dial: altitude");
+    assert_eq!(*person.explorer.scene(), before);
+    person.commands("dial large 90").shows("scale 2^90");
+    person.presses("u");
+    assert_eq!(*person.explorer.scene(), before);
+    person.presses("U").shows("scale 2^90");
+    person.presses("u 1 right left");
+    assert_eq!(person.screen(), screen);
+    assert!(!person.explorer.is_changed());
+}
+
+#[test]
+fn a_turned_dial_is_nothing_to_save_and_nothing_to_lose() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let name = path.to_str().unwrap();
+    let mut person = Person::opens("trio", 160, 24);
+    person
+        .commands(&format!("save-as {name}"))
+        .commands("dial offset 4");
+    person.presses("ctrl-s").shows("A dial is turned");
+    assert_eq!(
+        Scene::open(name).unwrap().0.bodies[0].sphere.center.x,
+        -0.75
+    );
+    person.presses("q");
+    assert_eq!(person.explorer.ended(), Some(0));
+
+    let mut person = Person::opens("trio", 160, 24);
+    person.presses("x").commands("dial offset 4").presses("q");
+    person.shows("Unsaved changes");
+    let own = person.explorer.scene().clone();
+    person.presses("esc u");
+    assert!(!person.explorer.is_changed());
+    assert_ne!(*person.explorer.scene(), own);
+}
+
+#[test]
+fn a_dial_that_scenes_do_not_have_is_named_and_so_is_one_that_goes_no_further() {
+    let mut person = Person::opens("trio", 120, 30);
+    person
+        .commands("dial tangency")
+        .shows("rayscope stress --dial tangency");
+    person
+        .presses("esc")
+        .commands("dial nonsense")
+        .shows("expected one of distance");
+    person
+        .presses("esc")
+        .commands("dial large 3")
+        .shows("expected 0 to 120");
+    person.presses("esc").commands("dial distance 24");
+    person.presses("\\").shows("distance goes no further");
+    person
+        .commands("dial altitude 60")
+        .shows("cannot tell that place");
 }
 
 #[test]

@@ -95,8 +95,13 @@ fn batch_names_what_is_wrong_with_a_row_and_answers_the_others() {
         ("0,0,0,1,0,0,0,0,0,-1", "line 15, column r: -1"),
         ("0,0,0,1,0,0,0,0,0", "line 17, column r: nothing there"),
         ("0,0,0,1,0,0,0,0,0,1,7", "line 19, column 11: 11 fields"),
-        ("0,0,0,1,0,0,\"0,0,0,1", "line 21, column 7: a quote"),
+        ("0,0,0,1,0,0,\"0,0,0,1", "line 21, column cx: a quote"),
         ("0,0,0,1,0,0,0x10,0,0,1", "line 23, column cx: `0x10`"),
+        (
+            &format!("0,0,0,1,0,0,{},0,0,1", "0".repeat(100_000)),
+            "line 25, column cx: the line is longer",
+        ),
+        ("0,0,0,1,0,0,0,0,0\r,1\r0", "line 27, column r: `1\r0`"),
     ];
     let good = "-3,0,0,1,0,0,0,0,0,1";
     let mut input = HEADER.to_owned();
@@ -120,7 +125,12 @@ fn batch_names_what_is_wrong_with_a_row_and_answers_the_others() {
     }
     for ((_, reason), said) in bad.iter().zip(run.err.lines()) {
         assert!(said.contains(reason), "{said} does not say {reason}");
-        assert!(said.contains("expected") || said.contains("header") || said.contains("quote"));
+        assert!(
+            said.contains("expected")
+                || said.contains("header")
+                || said.contains("never closed")
+                || said.contains("left out")
+        );
     }
     assert_eq!(run.err.lines().count(), bad.len());
 }
@@ -134,6 +144,10 @@ fn batch_refuses_a_header_that_will_not_do() {
         ("ox,oy,oz,dx,dy,dz,cx,cy,cz,r,r\n", "two columns r"),
         ("ox,oy,oz,dx,dy,dz,cx,cy,cz,r,near\n", "column near"),
         ("0,0,0,1,0,0,0,0,0,1\n", "no column ox"),
+        (
+            "ox,oy,oz,dx,dy,dz,cx,cy,cz,r\r0,0,0,1,0,0,0,0,0,1\r",
+            "a carriage return",
+        ),
     ] {
         let run = batch(input);
         assert_eq!(run.status, 1);

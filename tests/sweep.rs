@@ -1,6 +1,7 @@
 //! `exact` against the truth on every family, and which stage settled how many.
 //!
-//! `RAYSCOPE_SWEEP` sets the number of rays in all (12 000 without it), `RAYSCOPE_SEED` the seed.
+//! `RAYSCOPE_SWEEP` sets the number of rays in all (12 000 without it, ten million in `.ci/run`),
+//! `RAYSCOPE_SEED` the seed.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -1,5 +1,6 @@
 //! `rayscope plan`: what a frame of a scene needs, what is left out, and why.
 
+use std::fmt::Write as _;
 use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
@@ -252,6 +253,7 @@ fn text(report: &Report) -> String {
     let mut out = format!(
         "{scene}: {width}×{height} pixels, {spheres} sphere{plural}, {projection}, {method}, {view}, {style}\n"
     );
+    // Writing to a string does not fail.
     for Entry {
         what, how, plan, ..
     } in &report.frames
@@ -260,9 +262,9 @@ fn text(report: &Report) -> String {
             .iter()
             .map(|l| Line::new(l.what, l.kept, l.left_out, l.because.clone()))
             .collect();
-        out += &format!("\n{what}\n");
+        let _ = writeln!(out, "\n{what}");
         for line in explain::wrap(how, 80) {
-            out += &format!("{line}\n");
+            let _ = writeln!(out, "{line}");
         }
         out += "\n";
         out += &explain::plan_text(&lines, 80);

@@ -20,7 +20,7 @@ use crate::scene::{Body, Scene};
 
 pub use compare::{comparison, measured_bits};
 pub use derivation::{Drawn, Question, Step, derivation};
-pub use figure::{Float, Ink, bits, curve, slice};
+pub use figure::{Float, Ink, Setting, bits, curve, slice, turning, work};
 pub use number::{Digits, Glyphs, number, vector};
 pub use panel::{Line, Role, Span, fit, lines, plain_text};
 pub use plan::{plan_panel, plan_text};

@@ -106,6 +106,11 @@ impl Line {
         Self::new(0).with(Role::Plain, text)
     }
 
+    /// A line that stays, all of it in one role.
+    pub fn of(role: Role, text: impl Into<String>) -> Self {
+        Self::new(0).with(role, text)
+    }
+
     pub(super) fn with(mut self, role: Role, text: impl Into<String>) -> Self {
         self.spans.push(Span {
             text: text.into(),

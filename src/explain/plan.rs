@@ -1,5 +1,7 @@
 //! The plan of a frame as lines of text: what was done, what was left out, and why.
 
+use std::fmt::Write as _;
+
 use super::panel::{Line, Role};
 use super::wrap;
 use crate::render;
@@ -59,7 +61,8 @@ pub fn plan_text(plan: &[render::Line], width: usize) -> String {
         let words = wrap(&line.because, width.saturating_sub(margin));
         for (i, text) in words.iter().enumerate() {
             let start = if i == 0 { numbers.as_str() } else { "" };
-            out += &format!("{start:0$}  {text}\n", margin - 2);
+            // Writing to a string does not fail.
+            let _ = writeln!(out, "{start:0$}  {text}", margin - 2);
         }
     }
     out

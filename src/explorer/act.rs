@@ -94,6 +94,7 @@ impl Explorer {
             Action::PanelCurve => self.panel = Panel::Curve,
             Action::PanelBits => self.panel = Panel::Bits,
             Action::PanelCompare => self.panel = Panel::Compare,
+            Action::PanelError => self.panel = Panel::Error,
             Action::PanelPlan => self.panel = Panel::Plan,
             Action::NextStep => self.next_step(),
             Action::PreviousStep => self.go_to_step(self.step_at.saturating_sub(1)),
@@ -105,6 +106,11 @@ impl Explorer {
             Action::ScrubBack => self.scrub(-1.0),
             Action::ScrubHome => self.scrubbed = None,
             Action::NextComparison => self.turn_comparison(),
+
+            Action::Measure => self.measure(),
+            Action::NextDial => self.next_dial(),
+            Action::TurnOn => self.turn_on(),
+            Action::TurnBack => self.turn_back(),
 
             Action::TourForward => self.tour_forward(),
             Action::TourBack => self.tour_back(),
@@ -131,7 +137,10 @@ impl Explorer {
                 self.prompt(Purpose::SaveAs, &suggestion);
             }
             Action::Link => self.pass_on(),
-            Action::Suspend => self.request = Some(Request::Suspend),
+            Action::Suspend => {
+                self.stop_measuring();
+                self.request = Some(Request::Suspend);
+            }
             Action::Quit => self.quit(),
         }
     }
@@ -149,6 +158,7 @@ impl Explorer {
             Command::Style(style) => self.set_style(style),
             Command::View(view) => self.set_view(view),
             Command::Panel(panel) => self.panel = panel,
+            Command::Dial(dial, k) => self.dial_to(dial, k),
             Command::Step(name) => self.go_to_step_named(&name),
             Command::At(t) => self.scrubbed = Some(t),
             Command::Tour(chapter) => self.tour_to(&chapter),
@@ -310,6 +320,7 @@ impl Explorer {
 
     pub(super) fn travel(&mut self, go: fn(&mut Document) -> bool, nothing: &str) {
         if go(&mut self.document) {
+            self.follow_dial();
             self.mend_selection();
         } else {
             self.say(nothing);

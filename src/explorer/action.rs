@@ -18,6 +18,8 @@ pub enum Group {
     View,
     /// Walking through the mathematics of one pixel.
     Steps,
+    /// Errors and times of the methods on this picture.
+    Laboratory,
     /// Walking through the chapters that tell it all.
     Tour,
     /// Files, history, the program itself.
@@ -26,12 +28,13 @@ pub enum Group {
 
 impl Group {
     /// All groups, in the order of the help page.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Cursor,
         Self::Camera,
         Self::Spheres,
         Self::View,
         Self::Steps,
+        Self::Laboratory,
         Self::Tour,
         Self::Program,
     ];
@@ -44,6 +47,7 @@ impl Group {
             Self::Spheres => "Spheres",
             Self::View => "View",
             Self::Steps => "Step by step",
+            Self::Laboratory => "Errors and times",
             Self::Tour => "Tour",
             Self::Program => "Program",
         }
@@ -214,6 +218,8 @@ actions! {
     PanelBits "panel-bits" ["5"] Steps;
     /// panel: the chosen method beside another
     PanelCompare "panel-compare" ["6"] Steps;
+    /// panel: error against run time for this picture
+    PanelError "panel-error" ["7"] Steps;
     /// panel: what this frame needed, what was left out, and why
     PanelPlan "panel-plan" ["8"] Steps;
     /// open the steps; go to the next one, or reveal its answer
@@ -236,6 +242,16 @@ actions! {
     ScrubHome "scrub-home" ["/"] Steps;
     /// compare with the next method
     NextComparison "next-comparison" ["C"] Steps;
+
+    /// time all methods on this picture, on a thread of its own; again: stop
+    Measure "measure" ["%"] Laboratory;
+
+    /// panel: a dial on this scene; again: the next dial
+    NextDial "next-dial" ["9"] Laboratory;
+    /// turn the dial on, from tame to broken
+    TurnOn "turn-on" ["\\"] Laboratory;
+    /// turn the dial back
+    TurnBack "turn-back" ["|"] Laboratory;
 
     /// open the tour; go to its next page
     TourForward "tour-forward" ["f"] Tour;
@@ -300,7 +316,7 @@ pub const FOOTER: &[(&str, &str)] = &[
     (":", "command"),
     ("?", "help"),
     ("q", "quit"),
-    ("1-6", "panels"),
+    ("1-9", "panels"),
     ("b", "style"),
     ("xyz", "move"),
     ("g", "grow"),
@@ -322,7 +338,9 @@ fn group_in_markdown(group: Group) -> String {
         group.title()
     );
     let rows = Action::ALL.iter().filter(|a| a.group() == group).map(|a| {
-        let keys: Vec<_> = a.keys().iter().map(|k| format!("`{k}`")).collect();
+        // A bar ends a cell of a table, in code as well.
+        let key = |k: &&str| format!("`{}`", k.replace('|', "\\|"));
+        let keys: Vec<_> = a.keys().iter().map(key).collect();
         format!("| {} | {} | `{}` |\n", keys.join(" "), a.help(), a.name())
     });
     head + &rows.collect::<String>()

@@ -8,6 +8,7 @@ mod act;
 pub mod action;
 mod arrival;
 mod command;
+mod dialing;
 mod document;
 mod draw;
 mod field;
@@ -16,6 +17,7 @@ mod key;
 mod large;
 mod layout;
 mod link;
+mod measuring;
 mod mode;
 mod motion;
 mod panel;
@@ -38,11 +40,14 @@ use crate::render::{ColorDepth, Style, View};
 use crate::scene::{Scene, Size, Source};
 
 pub use link::{Opening, command_line};
+pub use measuring::Waker;
 pub use panel::Panel;
 
 use arrival::Arrival;
+use dialing::Dialing;
 use document::Document;
 use key::Key;
+use measuring::Measuring;
 use mode::{Message, Mode, Prompt, Purpose};
 use picture::Picture;
 use prompt::Line;
@@ -120,6 +125,8 @@ pub struct Explorer {
     tour: Option<Tour>,
     /// Where the person was when the tour was put away.
     put_away: Option<Bookmark>,
+    measuring: Measuring,
+    dialing: Dialing,
     ended: Option<u8>,
     /// The bytes of the last frame, and of the largest one.
     sent: Option<[u64; 2]>,
@@ -169,6 +176,8 @@ impl Explorer {
             arrival: Arrival::default(),
             tour: None,
             put_away: None,
+            measuring: Measuring::default(),
+            dialing: Dialing::default(),
             ended: None,
             sent: None,
         }

@@ -18,8 +18,12 @@ pub enum Panel {
     Bits,
     /// The methods side by side.
     Compare,
+    /// Error against run time for this picture.
+    Error,
     /// What the frame needed, and what was left out.
     Plan,
+    /// A dial on the scene, and what the method gets wrong.
+    Dial,
 }
 
 /// The least width and height that a panel is useful in.
@@ -28,14 +32,16 @@ const LEAST: (u16, u16) = (46, 21);
 impl Panel {
     /// All panels, in the order of their keys, which is also the order in which they fill what room
     /// there is.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 9] = [
         Self::Quadratic,
         Self::Steps,
         Self::Slice,
         Self::Curve,
         Self::Bits,
         Self::Compare,
+        Self::Error,
         Self::Plan,
+        Self::Dial,
     ];
 
     /// The name on the command line.
@@ -47,7 +53,9 @@ impl Panel {
             Self::Curve => "curve",
             Self::Bits => "bits",
             Self::Compare => "compare",
+            Self::Error => "error",
             Self::Plan => "plan",
+            Self::Dial => "dial",
         }
     }
 

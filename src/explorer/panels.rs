@@ -31,7 +31,12 @@ impl Explorer {
             Panel::Slice | Panel::Curve => self.figure_panel(panel, reading, room),
             Panel::Bits => self.bits_panel(room),
             Panel::Compare => self.compare_panel(reading, room),
+            Panel::Error => self.error_panel(room),
             Panel::Plan => self.plan_panel(room),
+            Panel::Dial => (
+                format!("dial: {}", self.dialing.dial.name),
+                self.dial_lines(room.width.into(), room.height.into()),
+            ),
         };
         // Only the panel that the person asked for scrolls.
         let hidden = lines.len().saturating_sub(room.height.into());
@@ -59,8 +64,10 @@ impl Explorer {
             Panel::Slice | Panel::Curve => "( ) move along the ray  / back".into(),
             Panel::Bits => ", . another number".into(),
             Panel::Compare => "C another method".into(),
-            Panel::Plan => String::new(),
-            Panel::Quadratic => String::new(),
+            Panel::Error if self.measuring.is_running() => "% stop".into(),
+            Panel::Error => "% measure".into(),
+            Panel::Dial => "\\ turn on  | back  9 next dial".into(),
+            Panel::Quadratic | Panel::Plan => String::new(),
         }
     }
 
@@ -148,6 +155,20 @@ impl Explorer {
         let Subject { trace, sphere, .. } = subject;
         let other = self.other_method().trace(&reading.ray, sphere);
         (title, explain::comparison(trace, &other, room.width.into()))
+    }
+
+    /// Error against run time, and whether it can be believed.
+    fn error_panel(&self, room: Rect) -> (String, Vec<Line>) {
+        let title = "error against run time".to_owned();
+        let width = room.width.into();
+        let mut lines = self.measuring.remarks(width);
+        if let Some(chart) = &self.measuring.chart {
+            let rows = usize::from(room.height).saturating_sub(lines.len());
+            let chapters = chart.report.chapters.iter();
+            let glyphs = self.options.glyphs;
+            lines.extend(chapters.flat_map(|c| explain::work(c, width, rows, glyphs)));
+        }
+        (title, lines)
     }
 
     /// What the picture on the screen needed, of whatever frame it is.

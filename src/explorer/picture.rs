@@ -88,6 +88,8 @@ impl Explorer {
             .scroll_to(style.cell_of_pixel(self.cursor.0, self.cursor.1), room);
         self.read(key);
         self.arrive_at_step();
+        self.date_chart();
+        self.find_errors();
     }
 
     /// Keeps the cursor on the same place of the picture when the number of pixels changes.

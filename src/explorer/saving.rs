@@ -47,8 +47,10 @@ impl Explorer {
                 self.leave_tour();
                 let (screen, options) = (self.screen, self.options);
                 let (rescue, put_away) = (self.rescue.take(), self.put_away.take());
+                let measuring = std::mem::take(&mut self.measuring);
                 *self = Self::new(scene, &source, options);
                 (self.screen, self.put_away) = (screen, put_away);
+                self.measuring = measuring;
                 if let Some(rescue) = rescue {
                     self.keep_in(&rescue.folder, &source);
                 }
@@ -60,6 +62,11 @@ impl Explorer {
     }
 
     pub(super) fn save(&mut self) {
+        if self.document.turn().is_some() {
+            return self.say(
+                "A dial is turned: | takes it back; :save-as keeps this scene under a name of its own.",
+            );
+        }
         match &self.place {
             FilePlace::None | FilePlace::Builtin(_) => {
                 let suggestion = self.suggested_file();

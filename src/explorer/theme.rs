@@ -48,7 +48,7 @@ impl Theme {
     /// A part of a figure. Letters and dash patterns tell the parts apart, too.
     fn ink(self, ink: Ink) -> Style {
         match ink {
-            Ink::Axis | Ink::Radius => Style::new().add_modifier(Modifier::DIM),
+            Ink::Axis | Ink::Pareto | Ink::Radius => Style::new().add_modifier(Modifier::DIM),
             Ink::Behind => self.hue(Color::Yellow).add_modifier(Modifier::DIM),
             Ink::Circle | Ink::Curve => self.hue(Color::LightCyan),
             Ink::Ray => self.hue(Color::LightYellow),
@@ -75,6 +75,17 @@ impl Theme {
     /// Something is wrong.
     pub fn warning(self) -> Style {
         self.hue(Color::LightRed).add_modifier(Modifier::BOLD)
+    }
+
+    /// A cell of the picture that is wrong, whatever it shows.
+    pub fn wrong(self) -> Style {
+        if self.depth == ColorDepth::None {
+            Style::reset().add_modifier(Modifier::BOLD)
+        } else {
+            Style::reset()
+                .fg(Color::LightRed)
+                .add_modifier(Modifier::BOLD)
+        }
     }
 
     /// Words, over whatever was there before.

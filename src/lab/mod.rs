@@ -2,6 +2,7 @@
 //!
 //! Nothing here knows a terminal; the command line and the explorer print what is found.
 
+mod alone;
 pub mod bench;
 pub mod dials;
 mod errors;
@@ -19,6 +20,7 @@ pub mod stress;
 pub mod timing;
 mod turn;
 
+pub use alone::Alone;
 pub use dials::Dial;
 pub use errors::{
     Census, Checksum, Errors, Fault, Judgement, Percentiles, RootError, Worst, Wrong, judge,
@@ -28,6 +30,7 @@ pub use hexadecimal::{hexadecimal, numbers};
 pub use machine::Machine;
 pub use random::Random;
 pub use reference::{Reference, Root};
+pub use turn::Turn;
 
 use crate::geometry::{Ray, Sphere};
 

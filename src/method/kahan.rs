@@ -2,11 +2,11 @@
 //! by two fused multiply-adds. What was lost before, in A, b and C, it cannot bring back.
 
 use super::number::{Fused, Input};
-use super::q_form::{self, roots};
+use super::q_form;
 use super::tape::Tape;
 use super::trace::{Line, Step, Steps};
 use super::truth::Truth;
-use super::{Class, Coefficients, Precision, Solution};
+use super::{Coefficients, Solution};
 use crate::geometry::{Ray, Sphere};
 
 /// Every quantity that the formula names, in the order of the mathematics.
@@ -41,24 +41,13 @@ fn quadratic<T: Fused>(input: &Input<T>) -> Quadratic<T> {
 /// Class by the sign of D, roots by the q-form.
 pub(super) fn solve(ray: &Ray, sphere: &Sphere) -> Solution {
     let Quadratic { k, reduced, .. } = quadratic(&Input::new(ray, sphere, |x| x));
-    let class = Class::of_discriminant(reduced.into());
-    if !class.meets() {
-        return Solution::without_roots(class);
-    }
-    let roots = roots(k.a, k.b, k.c, reduced);
-    Solution::with_roots(class, roots.near, roots.far)
+    q_form::solution(&k, reduced)
 }
 
 /// A, B = 2b, C and Δ = 4D in binary32.
 pub(super) fn coefficients(ray: &Ray, sphere: &Sphere) -> Coefficients {
     let Quadratic { k, reduced, .. } = quadratic(&Input::new(ray, sphere, |x| x));
-    Coefficients {
-        precision: Precision::Binary32,
-        a: k.a.into(),
-        b: (2.0 * k.b).into(),
-        c: k.c.into(),
-        discriminant: (4.0 * reduced).into(),
-    }
+    q_form::reported(&k, reduced)
 }
 
 /// The derivation, by the same code over a number that keeps record.
@@ -109,9 +98,6 @@ pub(super) fn steps(ray: &Ray, sphere: &Sphere, truth: &Truth) -> Vec<Step> {
         },
         quadratic.reduced,
     );
-    if Class::of_discriminant(quadratic.reduced.value().into()).meets() {
-        let roots = roots(k.a, k.b, k.c, quadratic.reduced);
-        q_form::root_steps(&mut steps, &roots, ["near", "far"], truth);
-    }
+    q_form::solution_steps(&mut steps, k, quadratic.reduced, truth);
     steps.finish()
 }

@@ -5,6 +5,7 @@ use super::number::{Input, Number, dot, sub};
 use super::tape::{Float, Traced};
 use super::trace::{self, Line, Steps};
 use super::truth::Truth;
+use super::{Class, Precision, Solution};
 
 /// The roots and what they are made of.
 #[derive(Debug, Clone, Copy)]
@@ -98,6 +99,28 @@ pub(super) fn coefficients<T: Number>(input: &Input<T>) -> Coefficients<T> {
     Coefficients { o, a, b, oo, rr, c }
 }
 
+/// The answer in binary32: the class by the sign of D, the roots by the q-form.
+#[inline]
+pub(super) fn solution(k: &Coefficients<f32>, reduced: f32) -> Solution {
+    let class = Class::of_discriminant(reduced.into());
+    if !class.meets() {
+        return Solution::without_roots(class);
+    }
+    let roots = roots(k.a, k.b, k.c, reduced);
+    Solution::with_roots(class, roots.near, roots.far)
+}
+
+/// What is told of the coefficients in binary32: A, B = 2b, C and Δ = 4D.
+pub(super) fn reported(k: &Coefficients<f32>, reduced: f32) -> super::Coefficients {
+    super::Coefficients {
+        precision: Precision::Binary32,
+        a: k.a.into(),
+        b: (2.0 * k.b).into(),
+        c: k.c.into(),
+        discriminant: (4.0 * reduced).into(),
+    }
+}
+
 /// The steps from o to C.
 pub(super) fn coefficient_steps<'t, F: Float>(
     steps: &mut Steps<'t>,
@@ -118,6 +141,19 @@ pub(super) fn coefficient_steps<'t, F: Float>(
     steps.scalar(trace::OO, k.oo);
     steps.scalar(trace::RR, k.rr);
     steps.scalar(trace::C, k.c);
+}
+
+/// The steps from √D to the roots in binary32, if the line meets the sphere.
+pub(super) fn solution_steps<'t>(
+    steps: &mut Steps<'t>,
+    k: &Coefficients<Traced<'t, f32>>,
+    reduced: Traced<'t, f32>,
+    truth: &Truth,
+) {
+    if Class::of_discriminant(reduced.value().into()).meets() {
+        let roots = roots(k.a, k.b, k.c, reduced);
+        root_steps(steps, &roots, ["near", "far"], truth);
+    }
 }
 
 /// The steps from √D to the two quotients, which are called `names`, the near one first.

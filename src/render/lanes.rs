@@ -76,9 +76,61 @@ macro_rules! number {
 number!(f32);
 number!(f64);
 
-macro_rules! operators {
-    ($lanes:ident: $($trait:ident $name:ident),*) => {$(
-        impl $trait for $lanes {
+/// Numbers side by side.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lanes(pub [f64; LANES]);
+
+impl Lanes {
+    #[inline(always)]
+    fn each(f: impl Fn(usize) -> f64) -> Self {
+        Self(std::array::from_fn(f))
+    }
+
+    /// The binary32 numbers from place `i` on.
+    #[inline(always)]
+    pub(super) fn load(from: &[f32], i: usize) -> Self {
+        let from: &[f32] = &from[i..i + LANES];
+        Self::each(|l| from[l].into())
+    }
+
+    /// The binary64 numbers from place `i` on.
+    #[inline(always)]
+    pub(super) fn load_double(from: &[f64], i: usize) -> Self {
+        let from: &[f64] = &from[i..i + LANES];
+        Self::each(|l| from[l])
+    }
+}
+
+impl Real for Lanes {
+    #[inline(always)]
+    fn of(value: f64) -> Self {
+        Self([value; LANES])
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self::each(|l| self.0[l].sqrt())
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self::each(|l| self.0[l].abs())
+    }
+    #[inline(always)]
+    fn at_least(self, least: f64) -> Self {
+        Self::each(|l| self.0[l].at_least(least))
+    }
+    #[inline(always)]
+    fn at_most(self, most: f64) -> Self {
+        Self::each(|l| self.0[l].at_most(most))
+    }
+    #[inline(always)]
+    fn where_negative(self, sign: Self, other: Self) -> Self {
+        Self::each(|l| self.0[l].where_negative(sign.0[l], other.0[l]))
+    }
+}
+
+macro_rules! operator {
+    ($($trait:ident $name:ident),*) => {$(
+        impl $trait for Lanes {
             type Output = Self;
             #[inline(always)]
             fn $name(self, other: Self) -> Self {
@@ -88,86 +140,13 @@ macro_rules! operators {
     )*};
 }
 
-macro_rules! lanes {
-    ($lanes:ident, $number:ty, $count:ident) => {
-        impl $lanes {
-            #[inline(always)]
-            fn each(f: impl Fn(usize) -> $number) -> Self {
-                Self(std::array::from_fn(f))
-            }
+operator!(Add add, Sub sub, Mul mul, Div div);
 
-            /// The binary32 numbers from place `i` on.
-            #[inline(always)]
-            pub(super) fn load(from: &[f32], i: usize) -> Self {
-                let from: &[f32] = &from[i..i + $count];
-                Self::each(|l| from[l].into())
-            }
-        }
-
-        impl Real for $lanes {
-            #[inline(always)]
-            fn of(value: f64) -> Self {
-                Self([value as $number; $count])
-            }
-            #[inline(always)]
-            fn sqrt(self) -> Self {
-                Self::each(|l| self.0[l].sqrt())
-            }
-            #[inline(always)]
-            fn abs(self) -> Self {
-                Self::each(|l| self.0[l].abs())
-            }
-            #[inline(always)]
-            fn at_least(self, least: f64) -> Self {
-                Self::each(|l| self.0[l].at_least(least))
-            }
-            #[inline(always)]
-            fn at_most(self, most: f64) -> Self {
-                Self::each(|l| self.0[l].at_most(most))
-            }
-            #[inline(always)]
-            fn where_negative(self, sign: Self, other: Self) -> Self {
-                Self::each(|l| self.0[l].where_negative(sign.0[l], other.0[l]))
-            }
-        }
-
-        operators!($lanes: Add add, Sub sub, Mul mul, Div div);
-
-        impl Neg for $lanes {
-            type Output = Self;
-            #[inline(always)]
-            fn neg(self) -> Self {
-                Self::each(|l| -self.0[l])
-            }
-        }
-    };
-}
-
-/// Binary64 numbers side by side.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Lanes(pub [f64; LANES]);
-
-/// Binary32 numbers side by side.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Singles(pub [f32; SINGLES]);
-
-lanes!(Lanes, f64, LANES);
-lanes!(Singles, f32, SINGLES);
-
-impl Lanes {
-    /// The binary64 numbers from place `i` on.
+impl Neg for Lanes {
+    type Output = Self;
     #[inline(always)]
-    pub(super) fn load_double(from: &[f64], i: usize) -> Self {
-        let from: &[f64] = &from[i..i + LANES];
-        Self::each(|l| from[l])
-    }
-}
-
-impl Singles {
-    /// The same number in every lane.
-    #[inline(always)]
-    pub(super) const fn all(value: f32) -> Self {
-        Self([value; SINGLES])
+    fn neg(self) -> Self {
+        Self::each(|l| -self.0[l])
     }
 }
 

@@ -1,6 +1,11 @@
 //! The nearest hits of a picture by `exact`: only where a sphere can be seen, and by a certified
 //! test in binary64 that leaves the rest to the method itself.
 
+#![expect(
+    clippy::needless_bitwise_bool,
+    reason = "a comparison that may be skipped is a branch, and a loop with branches is not compiled to vectors"
+)]
+
 use super::cover::{Bounds, Single, Spans};
 use super::field::{Field, TILE};
 use super::lanes::{LANES, Lanes, Real, SINGLES, cross, dot, sub};
@@ -474,12 +479,11 @@ impl<const PERSPECTIVE: bool, const ROOTS: bool, const CONSTANT_B: bool> Test
             let b = if CONSTANT_B { self.b } else { dot(o, d) };
             let k = cross(o, d);
             let discriminant = a[l] * single.r2 - dot(k, k);
-            let t = if !ROOTS {
-                -b / a[l]
-            } else if PERSPECTIVE {
-                single.c / (discriminant.sqrt() - b)
-            } else {
-                (-b - discriminant.sqrt()) / a[l]
+            let t = match (ROOTS, PERSPECTIVE) {
+                (true, true) => single.c / (discriminant.sqrt() - b),
+                (true, false) => (-b - discriminant.sqrt()) / a[l],
+                // Where the ray is nearest to the centre.
+                (false, _) => -b / a[l],
             };
             // A ray that draws no nearer meets nothing.
             let draws_nearer = b < 0.0;
@@ -535,14 +539,7 @@ impl<const PERSPECTIVE: bool, const INSIDE: bool> Test for InDoubles<'_, PERSPEC
         let discriminant = b * b - a * c;
         let error = a * (Lanes::of(DISCRIMINANT_ERROR) * size);
         let accepted = Lanes::of(self.asked.accept) * error;
-        let t = if !self.question.roots {
-            // Any point within the sphere tells which comes first: the eye, or the nearest to the centre.
-            if INSIDE {
-                Lanes::of(f32::MIN_POSITIVE.into())
-            } else {
-                -b / a
-            }
-        } else {
+        let t = if self.question.roots {
             counts.roots += LANES as u64;
             let root = discriminant.sqrt();
             if INSIDE {
@@ -551,6 +548,11 @@ impl<const PERSPECTIVE: bool, const INSIDE: bool> Test for InDoubles<'_, PERSPEC
             } else {
                 c / (root - b)
             }
+        } else if INSIDE {
+            // Any point within the sphere tells which comes first: here it is the eye.
+            Lanes::of(f32::MIN_POSITIVE.into())
+        } else {
+            -b / a
         };
 
         // Outside, a ray that draws no nearer meets nothing.

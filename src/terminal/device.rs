@@ -32,13 +32,15 @@ pub struct Device {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[expect(
     clippy::struct_excessive_bools,
-    reason = "four facts that poll tells, in any combination"
+    reason = "facts that poll tells, in any combination"
 )]
 pub struct Ready {
     /// Something was typed.
     pub input: bool,
     /// A signal came in.
     pub signal: bool,
+    /// Another thread woke us.
+    pub woken: bool,
     /// More can be written.
     pub output: bool,
     /// The terminal is gone.
@@ -124,7 +126,7 @@ impl Device {
     /// Waits for something to do, at most that long.
     pub fn wait(
         &self,
-        signals: BorrowedFd<'_>,
+        [signals, alarm]: [BorrowedFd<'_>; 2],
         output: bool,
         patience: Option<Duration>,
     ) -> io::Result<Ready> {
@@ -133,6 +135,7 @@ impl Device {
         let mut files = [
             PollFd::from_borrowed_fd(self.input, PollFlags::IN),
             PollFd::from_borrowed_fd(signals, PollFlags::IN),
+            PollFd::from_borrowed_fd(alarm, PollFlags::IN),
             PollFd::from_borrowed_fd(self.out.as_fd(), wanted),
         ];
         match poll(&mut files, patience.map(timespec).as_ref()) {
@@ -140,11 +143,12 @@ impl Device {
             Err(Errno::INTR) => return Ok(Ready::default()),
             Err(e) => return Err(e.into()),
         }
-        let [input, signal, output] = files.map(|f| f.revents());
+        let [input, signal, alarm, output] = files.map(|f| f.revents());
         let gone = PollFlags::HUP | PollFlags::ERR | PollFlags::NVAL;
         Ok(Ready {
             input: input.contains(PollFlags::IN),
             signal: signal.contains(PollFlags::IN),
+            woken: alarm.contains(PollFlags::IN),
             output: output.contains(PollFlags::OUT),
             gone: input.intersects(gone) || output.intersects(gone),
         })

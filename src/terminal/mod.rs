@@ -11,6 +11,7 @@ mod pace;
 mod painter;
 mod session;
 mod signals;
+mod wake;
 
 use std::io;
 
@@ -21,7 +22,7 @@ pub use keyboard::{Heard, Keyboard};
 pub use painter::{Limits, Painter};
 pub use session::Session;
 
-use crate::explorer::{Explorer, Request};
+use crate::explorer::{Explorer, Request, Waker};
 
 /// Most events taken before a drawing, so that a flood of input can't keep the screen from it.
 const MOST_AT_ONCE: usize = 512;
@@ -35,12 +36,16 @@ pub enum Input {
     Event(Event),
     /// The screen has another size, or shows something else.
     Redraw,
+    /// Somebody woke the loop through [`Link::waker`].
+    Woken,
     /// It is over, with this exit status, whatever the person wants.
     End(u8),
 }
 
 /// One person's terminal, near or far: where input comes from and frames go to.
 pub trait Link {
+    /// What ends [`Link::wait`] from any thread, and makes [`Link::next`] give [`Input::Woken`].
+    fn waker(&self) -> Waker;
     /// Waits for input and, if a frame is `due`, for room for it.
     fn wait(&mut self, due: bool) -> io::Result<()>;
     /// What came in next, if anything has.
@@ -58,6 +63,7 @@ pub trait Link {
 /// Runs the explorer until the person leaves or the link ends; the exit status.
 pub fn run(explorer: &mut Explorer, link: &mut impl Link) -> io::Result<u8> {
     let mut due = true;
+    explorer.wake_by(link.waker());
     loop {
         if due && link.is_ready() {
             link.show(explorer)?;
@@ -68,6 +74,7 @@ pub fn run(explorer: &mut Explorer, link: &mut impl Link) -> io::Result<u8> {
             match link.next()? {
                 Some(Input::Event(event)) => due |= explorer.update(&event),
                 Some(Input::Redraw) => due = true,
+                Some(Input::Woken) => due |= explorer.catch_up(),
                 Some(Input::End(status)) => return Ok(status),
                 None => break,
             }

@@ -18,8 +18,9 @@ use super::keyboard::{Heard, Keyboard};
 use super::pace::{Pace, QUERY};
 use super::painter::{Limits, Painter};
 use super::signals::{self, Asked, Signals};
+use super::wake::Alarm;
 use super::{HUNG_UP, Input, Link};
-use crate::explorer::Explorer;
+use crate::explorer::{Explorer, Waker};
 
 /// The alternate screen; pastes marked as such.
 const ENTER: &[u8] = b"\x1b[?1049h\x1b[?2004h";
@@ -47,6 +48,7 @@ static HELD: Mutex<Option<Arc<Device>>> = Mutex::new(None);
 pub struct Session {
     device: Arc<Device>,
     signals: Signals,
+    alarm: Alarm,
     keyboard: Keyboard,
     /// When what has begun on the keyboard is taken as it stands.
     settles: Option<Instant>,
@@ -79,6 +81,7 @@ impl Session {
         let mut session = Self {
             device: Arc::new(Device::open()?),
             signals: Signals::take()?,
+            alarm: Alarm::new()?,
             keyboard: Keyboard::default(),
             settles: None,
             inputs: VecDeque::new(),
@@ -161,9 +164,8 @@ impl Session {
     /// Waits at most that long, without end if none is given, and takes in what there is.
     fn look(&mut self, patience: Option<Duration>) -> io::Result<()> {
         let unwritten = !self.frame.is_empty();
-        let ready = self
-            .device
-            .wait(self.signals.as_fd(), unwritten, patience)?;
+        let others = [self.signals.as_fd(), self.alarm.as_fd()];
+        let ready = self.device.wait(others, unwritten, patience)?;
         if ready.gone {
             self.hang_up();
             return Ok(());
@@ -172,6 +174,10 @@ impl Session {
             for asked in self.signals.pending().collect::<Vec<_>>() {
                 self.heed(asked)?;
             }
+        }
+        if ready.woken {
+            self.alarm.quiet()?;
+            self.inputs.push_back(Input::Woken);
         }
         if ready.input {
             self.listen()?;
@@ -253,6 +259,10 @@ impl Session {
 }
 
 impl Link for Session {
+    fn waker(&self) -> Waker {
+        self.alarm.waker()
+    }
+
     fn wait(&mut self, due: bool) -> io::Result<()> {
         if !self.inputs.is_empty() {
             return Ok(());

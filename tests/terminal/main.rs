@@ -93,6 +93,24 @@ fn the_smallest_terminals_are_told_and_can_grow() {
 }
 
 #[test]
+fn what_a_thread_has_measured_is_shown_without_a_key() {
+    let mut pty = Pty::explorer(Start::default().args(&["trio"]));
+    loop {
+        pty.sends("%");
+        pty.waits_for("the chart, or why there is none", |p| {
+            p.shows("wrong %") || p.shows("Another explorer")
+        });
+        if pty.shows("wrong %") {
+            break;
+        }
+    }
+    // Quitting does not wait for what is being measured.
+    pty.sends("%q");
+    assert_eq!(pty.ends(), 0);
+    pty.is_restored();
+}
+
+#[test]
 fn a_signal_ends_it_and_the_status_says_which() {
     for (signal, status) in [
         (Signal::HUP, 129),

@@ -1,5 +1,6 @@
 //! `solve --batch`: CSV in, the same rows with the answers of one method out, one row at a time.
 
+use std::borrow::Cow;
 use std::cell::RefCell;
 use std::fmt;
 use std::fs::File;
@@ -10,7 +11,7 @@ use glam::Vec3;
 
 use super::super::complain;
 use super::input::number;
-use super::rows::{Row, Rows, push_field};
+use super::rows::{LONGEST, Row, Rows, push_field};
 use crate::geometry::{Ray, Sphere};
 use crate::method::format::{self, Shortest, Signs};
 use crate::method::{Class, Method, Solution};
@@ -42,6 +43,8 @@ pub(super) enum Error {
     Read(PathBuf, io::Error),
     /// The output cannot be written.
     Write(io::Error),
+    /// There is not even a header.
+    Empty(PathBuf),
     /// The first line is not a header that will do.
     Header(PathBuf, String),
 }
@@ -52,6 +55,10 @@ impl fmt::Display for Error {
             Self::Closed => f.write_str("the output was closed"),
             Self::Read(path, error) => write!(f, "cannot read {}: {error}", shown(path)),
             Self::Write(error) => write!(f, "cannot write the answers: {error}"),
+            Self::Empty(path) => {
+                let (path, columns) = (shown(path), INPUTS.join(","));
+                write!(f, "{path} is empty: expected a header with {columns}")
+            }
             Self::Header(path, reason) => write!(f, "{}: {reason}", shown(path)),
         }
     }
@@ -113,10 +120,7 @@ fn answer(
 
     let mut row = Row::default();
     if !rows.read(&mut row, None).map_err(unreadable)? {
-        let columns = INPUTS.join(",");
-        return Err(refused(format!(
-            "is empty: expected a header with {columns}"
-        )));
+        return Err(Error::Empty(path.to_owned()));
     }
     let columns = Columns::of(&row).map_err(refused)?;
     let mut text = Vec::new();
@@ -130,7 +134,7 @@ fn answer(
 
     let mut outcome = Outcome::AllValid;
     while rows
-        .read(&mut row, Some(columns.count))
+        .read(&mut row, Some(columns.count()))
         .map_err(unreadable)?
     {
         text.clear();
@@ -167,11 +171,24 @@ fn unwritable(error: io::Error) -> Error {
 struct Columns {
     /// For each of `INPUTS`, the field that holds it.
     places: [usize; INPUTS.len()],
-    /// Fields in a row.
-    count: usize,
+    /// The names of all columns as the header has them.
+    names: Vec<String>,
 }
 
 impl Columns {
+    /// Fields in a row.
+    fn count(&self) -> usize {
+        self.names.len()
+    }
+
+    /// What a field is called, counted from 0: its column's name, or its number where there is none.
+    fn name(&self, field: usize) -> Cow<'_, str> {
+        match self.names.get(field) {
+            Some(name) if !name.is_empty() => name.into(),
+            _ => (field + 1).to_string().into(),
+        }
+    }
+
     /// The columns by the names in the header, in any order; a name too few, twice or already
     /// taken is refused in a sentence.
     fn of(header: &Row) -> Result<Self, String> {
@@ -195,6 +212,12 @@ impl Columns {
                         "line {line}: there are two columns {name}; expected one"
                     ));
                 }
+                (None, _) if header.bare_text().contains(&b'\r') => {
+                    return Err(format!(
+                        "line {line}: a carriage return stands inside; expected each line to end \
+                         in a newline"
+                    ));
+                }
                 (None, _) => {
                     return Err(format!(
                         "line {line}: there is no column {name}; expected {}",
@@ -203,17 +226,23 @@ impl Columns {
                 }
             };
         }
-        let count = names.len();
-        Ok(Self { places, count })
+        let names = names.into_iter().map(String::from_utf8_lossy);
+        Ok(Self {
+            places,
+            names: names.map(Cow::into_owned).collect(),
+        })
     }
 
     /// Appends the row as it was read, or, if it is none, as many fields as there are columns.
+    ///
+    /// A carriage return within goes into quotes: some readers take it for the end of a row.
     fn copy(&self, row: &Row, text: &mut Vec<u8>) {
-        if row.closed && row.len() == self.count {
-            text.extend_from_slice(row.bare_text());
+        let bare = row.bare_text();
+        if row.closed && !row.cut && row.len() == self.count() && !bare.contains(&b'\r') {
+            text.extend_from_slice(bare);
             return;
         }
-        for field in 0..self.count {
+        for field in 0..self.count() {
             if field > 0 {
                 text.push(b',');
             }
@@ -223,18 +252,25 @@ impl Columns {
 
     /// The ray and the sphere of a row, or column, value and what was expected.
     fn read(&self, row: &Row) -> Result<(Ray, Sphere), String> {
+        if row.cut {
+            let column = self.name(row.len());
+            return Err(format!(
+                "column {column}: the line is longer than {LONGEST} bytes; what is beyond was left \
+                 out"
+            ));
+        }
         if !row.closed {
-            let column = row.len();
+            let column = self.name(row.len() - 1);
             return Err(format!(
                 "column {column}: a quote opens and is never closed"
             ));
         }
-        if row.len() > self.count {
+        if row.len() > self.count() {
             return Err(format!(
                 "column {}: {} fields, but the header has {}; what is beyond was left out",
-                self.count + 1,
+                self.count() + 1,
                 row.len(),
-                self.count
+                self.count()
             ));
         }
         let mut x = [0.0; INPUTS.len()];
@@ -242,7 +278,7 @@ impl Columns {
             let field = row.get(place).ok_or_else(|| {
                 format!(
                     "column {name}: nothing there; expected {} fields",
-                    self.count
+                    self.count()
                 )
             })?;
             *x = number(field).map_err(|reason| format!("column {name}: {reason}"))?;

@@ -1,14 +1,15 @@
 //! The rows of a CSV file as they were written, each with the number of its line.
 //!
-//! One row is held at a time. A quote that is never closed spoils its own line alone.
+//! One row is held at a time. A quote that is never closed, or a line too long to hold, spoils its
+//! own line alone.
 
 use std::collections::VecDeque;
 use std::io::{self, BufRead, Read};
 
-use csv_core::ReadRecordResult;
+use csv_core::{ReadRecordResult, ReaderBuilder, Terminator};
 
 /// The most bytes that a row may have.
-const LONGEST: usize = 1 << 16;
+pub(super) const LONGEST: usize = 1 << 16;
 
 /// A byte order mark, which some programs write before the header.
 const BOM: &[u8] = "\u{feff}".as_bytes();
@@ -16,8 +17,9 @@ const BOM: &[u8] = "\u{feff}".as_bytes();
 /// Reads rows one by one.
 pub(super) struct Rows<R> {
     input: R,
-    /// Lines that were read in search of a closing quote and are rows of their own.
-    held_back: VecDeque<Vec<u8>>,
+    /// Lines that were read in search of a closing quote and are rows of their own, each with
+    /// whether its end was cut off.
+    held_back: VecDeque<(Vec<u8>, bool)>,
     /// Lines taken so far.
     lines: u64,
     splitter: csv_core::Reader,
@@ -35,6 +37,16 @@ pub(super) struct Row {
     fields: usize,
     /// Whether all quotes in it are closed.
     pub closed: bool,
+    /// Whether the line was longer than `LONGEST`; the field in which it was cut is left out.
+    pub cut: bool,
+}
+
+/// A line that was added to a row's text.
+struct Taken {
+    /// Whether there was a line.
+    any: bool,
+    /// Whether it was longer than `LONGEST` and is cut there.
+    cut: bool,
 }
 
 impl<R: BufRead> Rows<R> {
@@ -44,7 +56,10 @@ impl<R: BufRead> Rows<R> {
             input,
             held_back: VecDeque::new(),
             lines: 0,
-            splitter: csv_core::Reader::new(),
+            // A carriage return ends no line by itself, so that it cannot hide what follows.
+            splitter: ReaderBuilder::new()
+                .terminator(Terminator::Any(b'\n'))
+                .build(),
         }
     }
 
@@ -54,9 +69,11 @@ impl<R: BufRead> Rows<R> {
         loop {
             row.line = self.lines + 1;
             row.text.clear();
-            if !self.take_line(&mut row.text)? {
+            let Taken { any, cut } = self.take_line(&mut row.text)?;
+            if !any {
                 return Ok(false);
             }
+            row.cut = cut;
             self.lines += 1;
             if row.line == 1 && row.text.starts_with(BOM) {
                 row.text.drain(..BOM.len());
@@ -66,38 +83,70 @@ impl<R: BufRead> Rows<R> {
             }
         }
         self.split(row);
-        if !row.closed {
+        if row.cut {
+            row.fields -= 1;
+            row.closed = true;
+        } else if !row.closed {
             self.read_on(row, expected)?;
         }
         Ok(true)
     }
 
-    /// Appends the next line with its end; false at the end of the input.
-    fn take_line(&mut self, text: &mut Vec<u8>) -> io::Result<bool> {
-        if let Some(line) = self.held_back.pop_front() {
+    /// Appends the next line with its end, cut if it is too long.
+    fn take_line(&mut self, text: &mut Vec<u8>) -> io::Result<Taken> {
+        if let Some((line, cut)) = self.held_back.pop_front() {
             text.extend(line);
-            return Ok(true);
+            return Ok(Taken { any: true, cut });
         }
         let most = LONGEST as u64 + 1;
         let taken = (&mut self.input).take(most).read_until(b'\n', text)?;
-        if taken > LONGEST {
-            return Err(io::Error::other(format!(
-                "line {} is longer than {LONGEST} bytes",
-                self.lines + 1
-            )));
+        let cut = taken > LONGEST && !text.ends_with(b"\n");
+        if cut {
+            // A header is nothing without its end.
+            if self.lines == 0 {
+                return Err(io::Error::other(format!(
+                    "line 1 is longer than {LONGEST} bytes"
+                )));
+            }
+            if self.skip_line()? {
+                text.push(b'\n');
+            }
         }
-        Ok(taken > 0)
+        let any = taken > 0;
+        Ok(Taken { any, cut })
+    }
+
+    /// Passes over what is left of a line, its end included; false if it has none.
+    fn skip_line(&mut self) -> io::Result<bool> {
+        loop {
+            let buffer = self.input.fill_buf()?;
+            if buffer.is_empty() {
+                return Ok(false);
+            }
+            let end = buffer.iter().position(|&b| b == b'\n');
+            let length = end.map_or(buffer.len(), |end| end + 1);
+            self.input.consume(length);
+            if end.is_some() {
+                return Ok(true);
+            }
+        }
     }
 
     /// Looks in the lines after an open quote for its end; if that makes no row, leaves them.
     fn read_on(&mut self, row: &mut Row, expected: Option<usize>) -> io::Result<()> {
         let first = row.text.len();
         let mut starts = vec![first];
-        while row.text.len() <= LONGEST && self.take_line(&mut row.text)? {
+        let mut last_is_cut = false;
+        while row.text.len() <= LONGEST {
+            let Taken { any, cut } = self.take_line(&mut row.text)?;
+            if !any {
+                break;
+            }
             let newest = starts[starts.len() - 1];
             let quoted = row.text[newest..].contains(&b'"');
             starts.push(row.text.len());
-            if quoted {
+            last_is_cut = cut;
+            if quoted && !cut {
                 self.split(row);
                 if row.closed {
                     break;
@@ -109,8 +158,9 @@ impl<R: BufRead> Rows<R> {
             return Ok(());
         }
         for bounds in starts.windows(2).rev() {
-            self.held_back
-                .push_front(row.text[bounds[0]..bounds[1]].to_vec());
+            let line = row.text[bounds[0]..bounds[1]].to_vec();
+            self.held_back.push_front((line, last_is_cut));
+            last_is_cut = false;
         }
         row.text.truncate(first);
         self.split(row);
@@ -257,7 +307,25 @@ mod tests {
     }
 
     #[test]
-    fn refuses_a_line_without_end() {
+    fn a_carriage_return_within_a_line_hides_nothing() {
+        let expected = [row(1, &["a\rb", "c"]), row(2, &["1", "2\r"])];
+        assert_eq!(rows("a\rb,c\r\n1,2\r\r\n", 2), expected);
+    }
+
+    #[test]
+    fn a_line_too_long_to_hold_spoils_itself_alone() {
+        let long = "x".repeat(3 * LONGEST);
+        let whole = [row(1, &["a", "b"]), row(2, &["1"]), row(3, &["2", "3"])];
+        assert_eq!(rows(&format!("a,b\n1,{long}\n2,3\n"), 2), whole);
+        assert_eq!(rows(&format!("a,b\n1,{long}"), 2), whole[..2]);
+        // In search of a closing quote it is passed over and read again.
+        let found = rows(&format!("a,b\n\"1,2\n3,{long}\n4,5\n"), 2);
+        assert_eq!(found[2..], [row(3, &["3"]), row(4, &["4", "5"])]);
+        assert!(!found[1].2);
+    }
+
+    #[test]
+    fn refuses_a_header_without_end() {
         let mut rows = Rows::new(io::BufReader::new(io::repeat(b'1')));
         let error = rows.read(&mut Row::default(), None).unwrap_err();
         assert_eq!(error.to_string(), "line 1 is longer than 65536 bytes");

@@ -10,6 +10,8 @@ use crate::explain::{Glyphs, Line, Role};
 pub enum Ink {
     /// Axes, and lines that only help.
     Axis,
+    /// The line through the methods that no other beats.
+    Pareto,
     /// The line from the centre to the surface.
     Radius,
     /// The circle that the slice leaves of the sphere.
@@ -38,7 +40,7 @@ impl Ink {
     /// The character that draws it where there are no dots.
     const fn ascii(self) -> char {
         match self {
-            Self::Axis | Self::Behind => '.',
+            Self::Axis | Self::Pareto | Self::Behind => '.',
             Self::Radius => 'r',
             Self::Circle | Self::Curve => 'o',
             Self::Ray => '-',
@@ -267,6 +269,25 @@ impl Canvas {
         };
         self.write(col as usize, row as usize, text, ink);
         true
+    }
+
+    /// Writes a label in the row of a cell, a blank away from it, where it hides nothing; false if
+    /// there is no room for it.
+    pub(super) fn label_beside(
+        &mut self,
+        (col, row): (usize, usize),
+        text: &str,
+        ink: Ink,
+    ) -> bool {
+        let length = self.glyphs.spell(text).chars().count() as i64;
+        for by in [2, -1 - length] {
+            let at = (col as i64 + by, row as i64);
+            if self.hidden_by(at, length, (col, row)) == Some(0) {
+                self.write(at.0 as usize, row, text, ink);
+                return true;
+            }
+        }
+        false
     }
 
     /// How many dotted cells a text would hide; none if it does not fit or would touch other text.

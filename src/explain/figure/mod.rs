@@ -1,5 +1,5 @@
 //! The mathematics as pictures made of text: the slice through ray and centre, the curve f(t), the
-//! bits of a number.
+//! bits of a number, the methods by error and run time.
 //!
 //! Shapes come from the exact quadratic ([`Section`](section::Section)), never from the method
 //! that is shown; where a method answers otherwise, the figure says so. What is drawn on, and how
@@ -17,9 +17,13 @@ mod section;
 mod slice;
 #[cfg(test)]
 mod tests;
+mod turning;
 mod view;
+mod work;
 
 pub use bits::{Float, bits};
 pub use canvas::Ink;
 pub use curve::curve;
 pub use slice::slice;
+pub use turning::{Setting, turning};
+pub use work::work;

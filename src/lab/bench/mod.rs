@@ -3,6 +3,8 @@
 mod data;
 pub(crate) mod text;
 
+use std::collections::BTreeSet;
+
 pub use data::{csv, json};
 pub use text::{error_overview, error_table, markdown, table};
 
@@ -52,25 +54,27 @@ impl Sample {
             let ray = rays.ray((pixel % width) as u32, (pixel / width) as u32);
             (ray, scene.bodies[body].sphere)
         };
+        let plural = if spheres == 1 { "" } else { "s" };
         let share = match asked.len() {
             n if n == all => "all".to_owned(),
             n => format!("{n} of {all}, drawn by lot"),
         };
         Self {
             name: scene.name.clone(),
-            about: format!("{} pixels × {spheres} spheres, {share}.", rays.size),
+            about: format!("{} pixels × {spheres} sphere{plural}, {share}.", rays.size),
             problems: asked.into_iter().map(problem).collect(),
         }
     }
 }
 
-/// `count` different numbers below `all`, ascending, each set of them as likely as any other.
-fn draw_lots(all: usize, count: usize, random: &mut Random) -> Vec<usize> {
-    let mut drawn = Vec::with_capacity(count);
-    for i in 0..all {
-        let (left, wanted) = (all - i, count - drawn.len());
-        if (random.below(left as u64) as usize) < wanted {
-            drawn.push(i);
+/// `count` different numbers below `all`, ascending, each set of them as likely as any other (Floyd's
+/// algorithm: as much work as there are numbers drawn).
+fn draw_lots(all: usize, count: usize, random: &mut Random) -> BTreeSet<usize> {
+    let mut drawn = BTreeSet::new();
+    for last in all - count..all {
+        let lot = random.below(last as u64 + 1) as usize;
+        if !drawn.insert(lot) {
+            drawn.insert(last);
         }
     }
     drawn

@@ -64,7 +64,7 @@ fn section(chapter: &Chapter, worst: bool) -> String {
     out += &errors(chapter);
     out += &times(chapter);
     for row in &chapter.rows {
-        out += &stages(row);
+        out += &settled_by(row).map_or(String::new(), |text| wrapped(&format!("  {text}")));
     }
     for row in chapter.rows.iter().filter(|_| worst) {
         out += &row
@@ -134,11 +134,9 @@ fn times(chapter: &Chapter) -> String {
     out
 }
 
-/// The stages that settled the rays of `exact`; nothing for the other methods.
-fn stages(row: &Row) -> String {
-    let Some(counts) = row.stages else {
-        return String::new();
-    };
+/// The stages that settled the rays of `exact`, in words; none for the other methods.
+pub(crate) fn settled_by(row: &Row) -> Option<String> {
+    let counts = row.stages?;
     let all: usize = counts.iter().sum();
     let shares: Vec<String> = Stage::ALL
         .into_iter()
@@ -146,11 +144,7 @@ fn stages(row: &Row) -> String {
         .filter(|&(_, count)| count > 0)
         .map(|(stage, count)| format!("{stage} {}", percent(count, all)))
         .collect();
-    wrapped(&format!(
-        "  {} settled by {}",
-        row.method,
-        shares.join(", ")
-    ))
+    Some(format!("{} settled by {}", row.method, shares.join(", ")))
 }
 
 pub(crate) fn percent(part: usize, all: usize) -> String {

@@ -9,12 +9,9 @@ use crate::geometry::{Ray, Sphere};
 use crate::method::Class;
 
 /// u = 2⁻⁵³, the unit roundoff of binary64.
-pub const U: f64 = f64::EPSILON / 2.0;
+pub const U: f64 = <f64 as Real>::U;
 
-/// ε = 2⁻³⁶: how far a direct root may be from the exact one, relatively, where it is certain.
-pub const DIRECT_ERROR: f64 = 131_072.0 * U;
-
-/// One ray and one sphere, or several in lanes: binary32 numbers held in binary64.
+/// One ray and one sphere: binary32 numbers held in binary64.
 #[derive(Debug, Clone, Copy)]
 pub struct Input<T> {
     /// Where the ray starts.
@@ -68,7 +65,8 @@ pub fn discriminant<T: Real>(input: &Input<T>) -> Discriminant<T> {
     let ar2 = a * (r * r);
     let k2 = dot(k, k);
     let length = (o[0].abs() + o[1].abs()) + o[2].abs();
-    let spread = (T::of(13.0 * U) * r + T::of(6.0 * U) * length) * (r + T::of(11.0 * U) * length);
+    let spread =
+        (T::of(13.0 * T::U) * r + T::of(6.0 * T::U) * length) * (r + T::of(11.0 * T::U) * length);
     Discriminant {
         o,
         a,
@@ -130,8 +128,8 @@ pub fn direct<T: Real>(input: &Input<T>, discriminant: &Discriminant<T>) -> Dire
     let Discriminant { o, a, d, .. } = *discriminant;
     let half_b = dot(o, input.d);
     let inverse = T::of(1.0) / a;
-    let less = T::of(1.0 - DIRECT_ERROR) * inverse;
-    let more = T::of(1.0 + DIRECT_ERROR) * inverse;
+    let less = T::of(1.0 - T::DIRECT_ERROR) * inverse;
+    let more = T::of(1.0 + T::DIRECT_ERROR) * inverse;
 
     let s = d.sqrt();
     let near = -half_b - s;
@@ -141,7 +139,7 @@ pub fn direct<T: Real>(input: &Input<T>, discriminant: &Discriminant<T>) -> Dire
         s,
         near: [near * less, near * more],
         far: [far * less, far * more],
-        d_error_limit: T::of(DIRECT_ERROR / 2.0) * (s * (half_b.abs() - s).abs()),
+        d_error_limit: T::of(T::DIRECT_ERROR / 2.0) * (s * (half_b.abs() - s).abs()),
     }
 }
 
@@ -259,9 +257,9 @@ pub fn compensated<T: Real>(input: &Input<T>, discriminant: &Discriminant<T>) ->
     Estimate {
         a: discriminant.a,
         half_b: (terms[0] + terms[1]) + terms[2],
-        half_b_error: T::of(4.25 * U) * magnitude,
+        half_b_error: T::of(4.25 * T::U) * magnitude,
         c,
-        c_error: T::of(2.0 * U) * c.abs() + T::of(64.0 * U * U) * (o2 + r2),
+        c_error: T::of(2.0 * T::U) * c.abs() + T::of(64.0 * T::U * T::U) * (o2 + r2),
         d: discriminant.d,
         d_error: discriminant.d_error,
     }
@@ -285,7 +283,7 @@ pub fn roots<T: Real>(estimate: &Estimate<T>) -> Roots<T> {
     let small = c / q;
 
     let s_error = T::of(0.5625) * (d_error / s.abs());
-    let q_error = (half_b_error + s_error) + T::of(8.0 * U) * q.abs();
+    let q_error = (half_b_error + s_error) + T::of(8.0 * T::U) * q.abs();
     Roots {
         s,
         q,

@@ -5,9 +5,6 @@
 
 use super::real::Real;
 
-/// Twice 2²⁶ plus one: multiplying by it and subtracting cuts 53 bits into 26 and 26.
-const SPLITTER: f64 = 134_217_729.0;
-
 /// a + b as rounded sum and error (Knuth, Møller).
 #[inline(always)]
 pub fn two_sum<T: Real>(a: T, b: T) -> (T, T) {
@@ -54,7 +51,7 @@ pub fn two_square<T: Real>(a: T) -> (T, T) {
 
 #[inline(always)]
 fn split<T: Real>(a: T) -> (T, T) {
-    let scaled = T::of(SPLITTER) * a;
+    let scaled = T::of(T::SPLITTER) * a;
     let high = scaled - (scaled - a);
     (high, a - high)
 }

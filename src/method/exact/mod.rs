@@ -16,6 +16,8 @@ mod integer;
 pub(super) mod lanes;
 mod real;
 mod rounding;
+#[cfg(test)]
+mod small_format;
 mod whole;
 
 use std::cmp::Ordering;

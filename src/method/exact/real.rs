@@ -1,11 +1,11 @@
-//! The numbers that stage 1 runs on: one binary64, or several side by side.
+//! The numbers that stage 1 runs on: binary64, or in tests a format so small that all its inputs
+//! can be tried.
 //!
-//! Stage 1 is written once over [`Real`]. Each operation here is rounded once per lane, so that a
-//! batch has the bits of the single call.
+//! Stage 1 is written once over [`Real`], its constants in units of the format's roundoff.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// A binary64, or several in lanes.
+/// A floating-point format whose operations round to nearest.
 pub trait Real:
     Copy
     + Add<Output = Self>
@@ -14,7 +14,15 @@ pub trait Real:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// The same number in every lane.
+    /// u, the unit roundoff: half the distance from 1 to the next number.
+    const U: f64;
+    /// ε: how far a direct root may be from the exact one, relatively, where it is certain.
+    const DIRECT_ERROR: f64;
+    /// 2ˢ + 1, s being half the number of bits, rounded up: multiplying by it and subtracting cuts a
+    /// number into two halves.
+    const SPLITTER: f64;
+
+    /// The nearest number of the format.
     fn of(value: f64) -> Self;
     /// The magnitude.
     fn abs(self) -> Self;
@@ -25,6 +33,11 @@ pub trait Real:
 }
 
 impl Real for f64 {
+    const U: f64 = f64::EPSILON / 2.0;
+    /// 2⁻³⁶.
+    const DIRECT_ERROR: f64 = 131_072.0 * Self::U;
+    const SPLITTER: f64 = 134_217_729.0;
+
     #[inline(always)]
     fn of(value: f64) -> Self {
         value

@@ -9,6 +9,7 @@ use crate::method::simd::{self, Kernel};
 use crate::render::View;
 use crate::render::bounds::Eye;
 use crate::render::cover::{BLOCK, Block, Bounds, Projector};
+use crate::render::field::Field;
 use crate::render::finish;
 use crate::render::lanes::SINGLES;
 use crate::render::layer::{Contact, NOBODY};
@@ -92,7 +93,14 @@ impl Frame {
             projector.bound_one(sphere, &mut self.block);
             let bounds = self.block.bounds(0).within(part);
             if !bounds.is_empty() {
-                let candidate = candidate(&projector, &self.block, 0, number, sphere, bounds);
+                let candidate = candidate(
+                    &projector,
+                    &self.field,
+                    (&self.block, 0),
+                    number,
+                    sphere,
+                    bounds,
+                );
                 self.plan.counts.asked += 1;
                 let counts = &mut self.plan.counts;
                 self.nearest.ask(&question, &candidate, counts);
@@ -181,7 +189,14 @@ impl Kernel for Search<'_> {
                 counts.hidden += 1;
             } else {
                 let number = self.first + i as u32;
-                let candidate = candidate(projector, block, i, number, &body.sphere, bounds);
+                let candidate = candidate(
+                    projector,
+                    question.field,
+                    (block, i),
+                    number,
+                    &body.sphere,
+                    bounds,
+                );
                 counts.asked += 1;
                 nearest.ask(&question, &candidate, counts);
             }
@@ -193,8 +208,8 @@ impl Kernel for Search<'_> {
 #[inline(always)]
 fn candidate(
     projector: &Projector,
-    block: &Block,
-    i: usize,
+    field: &Field,
+    (block, i): (&Block, usize),
     number: u32,
     sphere: &Sphere,
     bounds: Bounds,
@@ -204,6 +219,8 @@ fn candidate(
         bounds,
         spans: Candidate::is_wide(bounds).then(|| projector.spans(sphere)),
         least: block.least(i),
-        single: block.single(i, projector.perspective),
+        single: block
+            .single(i, projector.perspective)
+            .filter(|_| field.ordinary()),
     }
 }

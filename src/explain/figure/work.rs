@@ -1,0 +1,493 @@
+//! Error against run time in characters: a chart of the methods, and a table under it.
+//!
+//! ```text
+//! ns                p99 of the error in ulp →
+//!   8┤   e 0 %                     k 12 %
+//!   4┤   d 0 %        h 0 %     c 12 %
+//!   2┤                          t 12 %
+//!    └┬─────────┬─────────┬─────────┬────────
+//!     0.5       2^4       2^9       2^14
+//!    method    wrong %  p99 ulp     ns
+//! *t textbook     12     5224      2.4
+//! ```
+
+use super::canvas::{Canvas, Dash, Dot, Ink};
+use crate::explain::{self, Glyphs, Line, Role};
+use crate::lab::bench::text::{brief, settled_by};
+use crate::lab::bench::{Chapter, Row};
+
+/// The lowest chart that says more than its table.
+const LEAST_ROWS: usize = 7;
+
+/// A chart of so many rows can spare some for what else is worth knowing.
+const AMPLE_ROWS: usize = 16;
+
+/// The chart and the table of one picture, in `cols` × `rows` characters; the table may be longer.
+pub fn work(chapter: &Chapter, cols: usize, rows: usize, glyphs: Glyphs) -> Vec<Line> {
+    let mut table = table(chapter, cols);
+    if rows > table.len() + AMPLE_ROWS {
+        table.extend(stages(chapter, cols));
+    }
+    let room = rows.saturating_sub(table.len());
+    if room < LEAST_ROWS || cols < 24 {
+        return table;
+    }
+    let mut lines = chart(chapter, cols, room, glyphs);
+    lines.extend(table);
+    lines
+}
+
+/// The letter that stands for a method in the chart: no two begin alike.
+fn letter(row: &Row) -> char {
+    row.method.chars().next().unwrap_or('?')
+}
+
+/// Wrong answers in per cent, in few characters, none of them a rounded 0 or 100.
+fn wrong_rate(row: &Row, rays: usize) -> String {
+    let wrong = row.errors.wrong.total();
+    let percent = 100.0 * wrong as f64 / rays.max(1) as f64;
+    if wrong == 0 {
+        "0".into()
+    } else if percent < 0.095 {
+        "<.1".into()
+    } else if wrong < rays && percent > 99.45 {
+        ">99".into()
+    } else if percent < 9.95 {
+        format!("{percent:.1}")
+    } else {
+        format!("{percent:.0}")
+    }
+}
+
+/// The 99th percentile; a dash where no answer was right.
+fn p99(row: &Row) -> String {
+    if row.errors.judged == 0 {
+        "–".into()
+    } else {
+        brief(row.errors.ulp.p99)
+    }
+}
+
+/// A column of the table: its heading, its width with the blank before it, what it says.
+struct Column {
+    heading: &'static str,
+    width: usize,
+    cell: fn(&Row) -> String,
+}
+
+/// The most useful first.
+const COLUMNS: [Column; 6] = [
+    Column {
+        heading: "p99 ulp",
+        width: 8,
+        cell: p99,
+    },
+    Column {
+        heading: "ns",
+        width: 6,
+        cell: |row| brief(row.times.throughput.median),
+    },
+    Column {
+        heading: "ratio",
+        width: 6,
+        cell: |row| brief(row.times.throughput_ratio),
+    },
+    Column {
+        heading: "latency",
+        width: 8,
+        cell: |row| brief(row.times.latency.median),
+    },
+    Column {
+        heading: "p50",
+        width: 7,
+        cell: |row| brief(row.errors.ulp.p50),
+    },
+    Column {
+        heading: "largest",
+        width: 8,
+        cell: |row| brief(row.errors.ulp.max),
+    },
+];
+
+/// Mark, letter, name and the rate of wrong answers, then as many columns as there is room for.
+fn table(chapter: &Chapter, cols: usize) -> Vec<Line> {
+    const FIRST: usize = 20;
+    let mut left = cols.saturating_sub(FIRST);
+    let columns: Vec<&Column> = COLUMNS
+        .iter()
+        .take_while(|column| {
+            let fits = column.width <= left;
+            left = left.saturating_sub(column.width);
+            fits
+        })
+        .collect();
+    let all = |cell: &dyn Fn(&Column) -> String| {
+        let cells = columns.iter().map(|c| (cell(c), c.width));
+        cells.fold(String::new(), |line, (cell, width)| {
+            format!("{line}{cell:>width$}")
+        })
+    };
+    let headings = all(&|column| column.heading.into());
+    let heading = format!("   {:10}{:>7}{headings}", "method", "wrong %");
+    let mut lines = vec![Line::of(Role::Faint, heading)];
+    for row in &chapter.rows {
+        let mark = if row.pareto { '*' } else { ' ' };
+        let rate = wrong_rate(row, chapter.census.rays);
+        let role = if rate == "0" {
+            Role::Value
+        } else {
+            Role::Warning
+        };
+        let numbers = all(&|column| (column.cell)(row));
+        let line = Line::new(0)
+            .with(Role::Plain, mark)
+            .with(Role::Label, letter(row))
+            .with(Role::Plain, format!(" {:9}", row.method))
+            .with(role, format!("{rate:>8}"))
+            .with(Role::Value, numbers);
+        lines.push(line);
+    }
+    lines
+}
+
+/// Which stages of `exact` settled how many of the questions.
+fn stages(chapter: &Chapter, cols: usize) -> Vec<Line> {
+    let settled = chapter.rows.iter().filter_map(settled_by);
+    let lines = settled.flat_map(|text| explain::wrap(&text, cols));
+    lines.map(|text| Line::of(Role::Faint, text)).collect()
+}
+
+/// The values at the edges of the chart: log₂ of the error in ulp, log₂ of nanoseconds.
+#[derive(Debug, Clone, Copy)]
+struct Span {
+    x: [f64; 2],
+    y: [f64; 2],
+}
+
+/// log₂ of the least error that is told from none.
+const NO_ERROR: f64 = -3.0;
+
+impl Span {
+    fn of(chapter: &Chapter) -> Self {
+        let judged = chapter.rows.iter().filter(|row| row.errors.judged > 0);
+        let reach = |values: &mut dyn Iterator<Item = f64>| {
+            values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], v| {
+                [least.min(v), most.max(v)]
+            })
+        };
+        let [left, right] = reach(&mut judged.map(log_error));
+        let [bottom, top] = reach(&mut chapter.rows.iter().map(log_time));
+        // One picture looks much like the next if the span changes in steps.
+        let [left, right] = [left.min(-1.0), right].map(f64::ceil);
+        Self {
+            x: [left - 1.0, right.max(9.0)],
+            y: [bottom.floor(), top.ceil().max(bottom.floor() + 2.0)],
+        }
+    }
+}
+
+fn log_error(row: &Row) -> f64 {
+    row.errors.ulp.p99.log2().clamp(NO_ERROR, 120.0)
+}
+
+fn log_time(row: &Row) -> f64 {
+    row.times.throughput.median.log2().clamp(-3.0, 40.0)
+}
+
+/// The columns that the rightmost point leaves for its label.
+const LABEL_ROOM: usize = 6;
+
+/// The sheet of the chart, and where its axes cross.
+struct Chart {
+    canvas: Canvas,
+    span: Span,
+    /// First column and number of columns, last row of the points: row 0 has the title.
+    left: usize,
+    cols: usize,
+    bottom: usize,
+}
+
+impl Chart {
+    /// The dot of values; where there is no error to tell, at the right edge.
+    fn place(&self, row: &Row) -> Dot {
+        let Span { x, y } = self.span;
+        let part = |v: f64, [from, to]: [f64; 2]| ((v - from) / (to - from)).clamp(0.0, 1.0);
+        let across = if row.errors.judged == 0 {
+            1.0
+        } else {
+            part(log_error(row), x)
+        };
+        self.at(across, part(log_time(row), y))
+    }
+
+    /// The dot at these parts of the way to the right and up.
+    fn at(&self, across: f64, up: f64) -> Dot {
+        let columns = self.cols - LABEL_ROOM;
+        let (width, height) = ((columns * 2 - 1) as f64, (self.bottom * 4 - 1) as f64);
+        (
+            (self.left * 2) as f64 + 0.5 + across * width,
+            4.0 + (1.0 - up) * height,
+        )
+    }
+}
+
+fn chart(chapter: &Chapter, cols: usize, rows: usize, glyphs: Glyphs) -> Vec<Line> {
+    let left = 5;
+    let mut chart = Chart {
+        canvas: Canvas::new(cols, rows, glyphs),
+        span: Span::of(chapter),
+        left,
+        cols: cols - left,
+        bottom: rows - 3,
+    };
+    chart.axes(rows);
+    chart.pareto_line(chapter);
+    chart.points(chapter);
+    chart.canvas.lines()
+}
+
+impl Chart {
+    fn axes(&mut self, rows: usize) {
+        let (foot, left) = (rows - 2, self.left);
+        let canvas = &mut self.canvas;
+        canvas.write(left - 3, 0, "ns", Ink::Note);
+        let title = "99 % of the errors, in ulp →";
+        canvas.write(
+            left + self.cols - title.chars().count().min(self.cols),
+            0,
+            title,
+            Ink::Note,
+        );
+        let [line, up, corner, tick_across, tick_up] = match canvas.glyphs() {
+            Glyphs::Unicode => ['─', '│', '└', '┤', '┬'],
+            Glyphs::Ascii => ['-', '|', '+', '+', '+'],
+        };
+        for row in 1..foot {
+            canvas.put(left - 1, row, up, Ink::Axis);
+        }
+        for col in left..left + self.cols {
+            canvas.put(col, foot, line, Ink::Axis);
+        }
+        canvas.put(left - 1, foot, corner, Ink::Axis);
+        let [bottom, top] = self.span.y.map(|y| y as i32);
+        let mut last = usize::MAX;
+        for log in bottom..=top {
+            let part = (f64::from(log) - self.span.y[0]) / (self.span.y[1] - self.span.y[0]);
+            let dot = self.at(0.0, part);
+            let Some((_, row)) = self.canvas.cell_of(dot) else {
+                continue;
+            };
+            // Powers of two stand a line apart at least.
+            if last.abs_diff(row) < 2 {
+                continue;
+            }
+            last = row;
+            let label = brief_power(log);
+            let at = (left - 1).saturating_sub(label.chars().count());
+            self.canvas.write(at, row, &label, Ink::Note);
+            self.canvas.put(left - 1, row, tick_across, Ink::Axis);
+        }
+        let [first, end] = self.span.x.map(|x| x as i32);
+        // So many columns at least from one number to the next.
+        let fits = |step: &i32| (end - first) * 8 <= step * self.cols as i32;
+        let step = [2, 5, 10].into_iter().find(fits).unwrap_or(20);
+        for log in (-1..=end).step_by(step as usize) {
+            let part = (f64::from(log) - self.span.x[0]) / (self.span.x[1] - self.span.x[0]);
+            let Some((col, _)) = self.canvas.cell_of(self.at(part, 0.0)) else {
+                continue;
+            };
+            let label = if log == -1 {
+                "0.5".into()
+            } else {
+                format!("2^{log}")
+            };
+            let label = self.canvas.glyphs().spell(&label);
+            let width = label.chars().count();
+            if col + width <= left + self.cols {
+                self.canvas.put(col, foot, tick_up, Ink::Axis);
+                self.canvas.write(col, foot + 1, &label, Ink::Note);
+            }
+        }
+    }
+
+    /// Through the methods that no other beats, by their error.
+    fn pareto_line(&mut self, chapter: &Chapter) {
+        let best = chapter
+            .rows
+            .iter()
+            .filter(|r| r.pareto && r.errors.judged > 0);
+        let mut best: Vec<Dot> = best.map(|row| self.place(row)).collect();
+        best.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.total_cmp(&a.1)));
+        for pair in best.windows(2) {
+            self.canvas
+                .line(pair[0], pair[1], Ink::Pareto, Dash::DOTTED);
+        }
+    }
+
+    /// Letters first, so that no label hides one; methods in one cell share a label.
+    fn points(&mut self, chapter: &Chapter) {
+        let mut groups: Vec<((usize, usize), Vec<&Row>)> = Vec::new();
+        for row in &chapter.rows {
+            let Some(cell) = self.canvas.cell_of(self.place(row)) else {
+                continue;
+            };
+            match groups.iter_mut().find(|(at, _)| *at == cell) {
+                Some((_, group)) => group.push(row),
+                None => groups.push((cell, vec![row])),
+            }
+        }
+        for ((col, line), group) in &groups {
+            self.canvas.put(*col, *line, letter(group[0]), Ink::Root);
+        }
+        for (cell, group) in &groups {
+            let rays = chapter.census.rays;
+            let label = label(group, rays);
+            if !self.canvas.label_beside(*cell, &label, Ink::Note) {
+                self.canvas.label(*cell, &label, Ink::Note, true);
+            }
+        }
+    }
+}
+
+/// The letters beside the first, and the rates of wrong answers.
+fn label(group: &[&Row], rays: usize) -> String {
+    let mut rates: Vec<String> = group.iter().map(|row| wrong_rate(row, rays)).collect();
+    rates.dedup();
+    let others: String = group[1..].iter().map(|row| letter(row)).collect();
+    let rates = rates.join("/") + " %";
+    if others.is_empty() {
+        rates
+    } else {
+        format!("{others} {rates}")
+    }
+}
+
+/// 2^k as a number while that is short.
+fn brief_power(k: i32) -> String {
+    match k {
+        0..=12 => (1 << k).to_string(),
+        -1 => ".5".into(),
+        -2 => ".25".into(),
+        _ => format!("2^{k}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::lab::{Census, Errors, Percentiles, Wrong};
+    use crate::method::Method;
+
+    /// A row with this p99, time in ns and number of wrong answers of 1000.
+    fn row(method: Method, p99: f64, ns: f64, wrong: usize) -> Row {
+        let mut row = Row {
+            method: method.name(),
+            errors: Errors {
+                wrong: Wrong {
+                    false_miss: wrong,
+                    ..Wrong::default()
+                },
+                ulp: Percentiles {
+                    p99,
+                    ..Percentiles::default()
+                },
+                judged: 1000 - wrong,
+                ..Errors::default()
+            },
+            times: crate::lab::timing::Times::default(),
+            stages: None,
+            pareto: wrong == 0,
+        };
+        row.times.throughput.median = ns;
+        row
+    }
+
+    fn chapter(rows: Vec<Row>) -> Chapter {
+        Chapter {
+            name: "test".into(),
+            about: String::new(),
+            census: Census {
+                rays: 1000,
+                ..Census::default()
+            },
+            timed: 1000,
+            rows,
+        }
+    }
+
+    fn text(lines: &[Line]) -> Vec<String> {
+        lines.iter().map(Line::text).collect()
+    }
+
+    /// Where the letter of a method stands in the chart.
+    fn place(lines: &[String], letter: char) -> (usize, usize) {
+        let chart = lines.iter().take_while(|line| !line.contains("method"));
+        let found = chart.skip(1).enumerate().find_map(|(y, line)| {
+            let x = line.chars().skip(6).position(|c| c == letter)?;
+            Some((x, y))
+        });
+        found.unwrap_or_else(|| panic!("no {letter} in {lines:#?}"))
+    }
+
+    #[test]
+    fn worse_is_to_the_right_and_slower_is_higher() {
+        let rows = vec![
+            row(Method::Textbook, 1000.0, 2.0, 120),
+            row(Method::Haines, 2.0, 8.0, 3),
+            row(Method::Exact, 0.5, 16.0, 0),
+        ];
+        let mut rows_in_order = rows.clone();
+        rows_in_order.push(row(Method::Double, 0.5, 4.0, 1000));
+        let lines = text(&work(&chapter(rows_in_order), 60, 24, Glyphs::Unicode));
+        let [t, h, e, d] = ['t', 'h', 'e', 'd'].map(|letter| place(&lines, letter));
+        assert!(e.0 < h.0 && h.0 < t.0, "{lines:#?}");
+        assert!(e.1 < h.1 && h.1 < t.1, "{lines:#?}");
+        // Who has no right answer stands at the end.
+        assert!(t.0 <= d.0, "{lines:#?}");
+        let whole = lines.join("\n");
+        for words in ["t 12 %", "h 0.3 %", "e 0 %", "d 100 %", "*e exact"] {
+            assert!(whole.contains(words), "no {words} in {lines:#?}");
+        }
+    }
+
+    #[test]
+    fn methods_in_one_place_share_it() {
+        let rows = vec![
+            row(Method::Textbook, 40.0, 4.0, 120),
+            row(Method::Citardauq, 40.0, 4.01, 120),
+            row(Method::Exact, 0.5, 4.0, 0),
+        ];
+        let whole = text(&work(&chapter(rows), 60, 24, Glyphs::Unicode)).join("\n");
+        assert!(whole.contains("t c 12 %"), "{whole}");
+    }
+
+    fn any_value() -> impl Strategy<Value = f64> {
+        prop_oneof![
+            0.0..1e9,
+            any::<f64>().prop_map(f64::abs),
+            Just(0.0),
+            Just(f64::INFINITY)
+        ]
+    }
+
+    proptest! {
+        #[test]
+        fn any_chart_keeps_to_its_room(
+            values in prop::collection::vec((any_value(), any_value(), 0_usize..=1000), 0..6),
+            cols in 0_usize..140,
+            rows in 0_usize..50,
+            ascii in any::<bool>(),
+        ) {
+            let methods = Method::ALL.into_iter().zip(values);
+            let made = methods.map(|(m, (p99, ns, wrong))| row(m, p99, ns, wrong)).collect();
+            let glyphs = if ascii { Glyphs::Ascii } else { Glyphs::Unicode };
+            let lines = work(&chapter(made), cols, rows, glyphs);
+            for line in &lines[..lines.len().saturating_sub(8)] {
+                prop_assert!(line.width() <= cols);
+                prop_assert!(!ascii || line.text().is_ascii());
+            }
+        }
+    }
+}

@@ -1,0 +1,292 @@
+//! Error against run time for the picture on the screen: timed when asked, on a thread of its own.
+//!
+//! The thread gets copies, sends its report through a channel and rings the waker: whoever waits
+//! for input then calls [`Explorer::catch_up`]. Nobody waits for the thread.
+
+use std::fmt;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
+use std::thread;
+
+use super::Explorer;
+use super::panel::Panel;
+use crate::explain::{self, Line, Role};
+use crate::lab::bench::Report;
+use crate::lab::picture::{NoChart, chart};
+use crate::lab::timing::SelfCheck;
+use crate::scene::{Rays, Scene};
+
+/// Wakes whoever waits for input, from any thread; nobody, if nobody is set.
+#[derive(Clone, Default)]
+pub struct Waker(Option<Arc<dyn Fn() + Send + Sync>>);
+
+impl Waker {
+    /// Wakes by calling this.
+    pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
+        Self(Some(Arc::new(wake)))
+    }
+
+    /// Wakes.
+    pub fn wake(&self) {
+        if let Some(wake) = &self.0 {
+            wake();
+        }
+    }
+}
+
+impl fmt::Debug for Waker {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Waker")
+    }
+}
+
+/// What was measured, what is being measured, and why there is nothing.
+#[derive(Debug, Default)]
+pub(super) struct Measuring {
+    pub(super) waker: Waker,
+    pub(super) chart: Option<Chart>,
+    run: Option<Run>,
+    /// Why the last measurement came to nothing.
+    pub(super) refusal: Option<NoChart>,
+}
+
+/// The picture that is asked about.
+#[derive(Debug, Clone)]
+struct Subject {
+    scene: Scene,
+    rays: Rays,
+}
+
+impl Subject {
+    /// Whether another picture asks the same questions.
+    fn is(&self, scene: &Scene, rays: &Rays) -> bool {
+        let (mine, others) = (self.scene.bodies.iter(), scene.bodies.iter());
+        self.rays == *rays && mine.map(|b| b.sphere).eq(others.map(|b| b.sphere))
+    }
+}
+
+/// A measurement that has come to its end.
+#[derive(Debug)]
+pub(super) struct Chart {
+    pub(super) report: Report,
+    of: Subject,
+    /// The document's version and the rays for which `is_stale` was found out.
+    seen: Option<(u64, Rays)>,
+    /// Whether the screen shows another picture by now.
+    pub(super) is_stale: bool,
+}
+
+/// A measurement on its way; it is called off when this is dropped.
+#[derive(Debug)]
+struct Run {
+    of: Subject,
+    cancel: Arc<AtomicBool>,
+    report: Receiver<Result<Report, NoChart>>,
+}
+
+impl Drop for Run {
+    fn drop(&mut self) {
+        self.cancel.store(true, Ordering::Relaxed);
+    }
+}
+
+/// Sends the report and wakes whoever waits for it; wakes too if a panic leaves nothing to send.
+struct Answer {
+    report: Option<Sender<Result<Report, NoChart>>>,
+    waker: Waker,
+}
+
+impl Answer {
+    fn send(&self, report: Result<Report, NoChart>) {
+        if let Some(to) = &self.report {
+            // Nobody listens any more: then nobody misses it.
+            let _ = to.send(report);
+        }
+    }
+}
+
+impl Drop for Answer {
+    fn drop(&mut self) {
+        self.report = None;
+        self.waker.wake();
+    }
+}
+
+impl Run {
+    fn start(of: Subject, waker: Waker) -> Result<Self, NoChart> {
+        let cancel = Arc::new(AtomicBool::new(false));
+        let (sender, report) = mpsc::channel();
+        let answer = Answer {
+            report: Some(sender),
+            waker,
+        };
+        let (subject, cancelled) = (of.clone(), Arc::clone(&cancel));
+        let work = move || {
+            answer.send(chart(&subject.scene, &subject.rays, &cancelled));
+        };
+        match thread::Builder::new().name("measure".into()).spawn(work) {
+            Ok(_) => Ok(Self { of, cancel, report }),
+            Err(error) => Err(NoChart::Failed(error.to_string())),
+        }
+    }
+}
+
+impl Measuring {
+    /// Whether a measurement is on its way.
+    pub(super) const fn is_running(&self) -> bool {
+        self.run.is_some()
+    }
+
+    /// What there is to say before the chart, or in its place, in lines of that width.
+    pub(super) fn remarks(&self, width: usize) -> Vec<Line> {
+        let mut remarks = Vec::new();
+        if self.is_running() {
+            remarks.push((
+                Role::Plain,
+                "Measuring … the keys do what they always do.".into(),
+            ));
+        } else if let Some(refusal) = &self.refusal {
+            remarks.push((Role::Warning, in_words(refusal)));
+        }
+        match &self.chart {
+            Some(chart) => remarks.extend(chart.remarks()),
+            None if remarks.is_empty() => remarks.push((Role::Plain, NOTHING_YET.into())),
+            None => {}
+        }
+        let lines = |(role, text): &(Role, String)| {
+            let lines = explain::wrap(text, width).into_iter();
+            lines.map(|line| Line::of(*role, line)).collect::<Vec<_>>()
+        };
+        remarks.iter().flat_map(lines).collect()
+    }
+}
+
+/// What the panel says before anything was measured.
+const NOTHING_YET: &str = "Press % to time all methods on the questions that this picture asks: the ray \
+    of each pixel with each sphere. Each answer is held against the truth as well. It takes about a \
+    second, and only one explorer of this host measures at a time.";
+
+/// A refusal as a sentence.
+fn in_words(refusal: &NoChart) -> String {
+    match refusal {
+        NoChart::Busy => {
+            "Another explorer on this host is measuring, and two would disturb each other. % tries again."
+                .into()
+        }
+        NoChart::Cancelled => "The measurement was stopped. % begins anew.".into(),
+        NoChart::Empty => "The scene has no spheres: there is nothing to ask.".into(),
+        NoChart::Failed(reason) => format!("Nothing could be measured: {reason}. % tries again."),
+    }
+}
+
+impl Chart {
+    /// How far the chart can be believed, and what it is of.
+    fn remarks(&self) -> Vec<(Role, String)> {
+        let mut remarks = Vec::new();
+        if self.is_stale {
+            let stale =
+                "STALE: the picture was another one when this was measured. % measures anew.";
+            remarks.push((Role::Warning, stale.into()));
+        }
+        for check in self.report.self_checks.iter().filter(|check| !check.passed) {
+            let SelfCheck {
+                name,
+                ratio,
+                least,
+                most,
+                ..
+            } = check;
+            let text = format!(
+                "TIMES NOT TO BE TRUSTED: {name} is {ratio:.2} and should be {least} to {most}. \
+                 Something else was running? % measures anew."
+            );
+            remarks.push((Role::Warning, text));
+        }
+        if cfg!(debug_assertions) {
+            remarks.push((Role::Warning, "Not an optimised build.".into()));
+        }
+        let abouts = self.report.chapters.iter().map(|chapter| &chapter.about);
+        remarks.extend(abouts.map(|about| (Role::Faint, about.clone())));
+        remarks
+    }
+}
+
+impl Explorer {
+    /// Has the explorer ring `waker` when something comes in that [`Explorer::catch_up`] takes.
+    pub fn wake_by(&mut self, waker: Waker) {
+        self.measuring.waker = waker;
+    }
+
+    /// Takes what threads have finished; false if nothing on the screen can have changed.
+    pub fn catch_up(&mut self) -> bool {
+        let Some(run) = &self.measuring.run else {
+            return false;
+        };
+        let result = match run.report.try_recv() {
+            Ok(result) => result,
+            Err(TryRecvError::Empty) => return false,
+            Err(TryRecvError::Disconnected) => Err(NoChart::Failed("it broke off".into())),
+        };
+        let of = run.of.clone();
+        self.measuring.run = None;
+        match result {
+            Ok(report) => {
+                self.measuring.chart = Some(Chart {
+                    report,
+                    of,
+                    seen: None,
+                    is_stale: false,
+                });
+                self.measuring.refusal = None;
+            }
+            Err(refusal) => self.measuring.refusal = Some(refusal),
+        }
+        if self.panel != Panel::Error {
+            self.say("Measured. 7 shows error against run time.");
+        }
+        true
+    }
+
+    /// Times all methods on the questions of this picture, or stops doing so.
+    pub(super) fn measure(&mut self) {
+        self.panel = Panel::Error;
+        if self.measuring.run.take().is_some() {
+            self.measuring.refusal = Some(NoChart::Cancelled);
+            return;
+        }
+        // The scene may have changed since it was last drawn.
+        let (cols, rows) = self.screen;
+        self.prepare(cols, rows);
+        let of = Subject {
+            scene: self.scene().clone(),
+            rays: self.picture.rays,
+        };
+        match Run::start(of, self.measuring.waker.clone()) {
+            Ok(run) => {
+                self.measuring.run = Some(run);
+                self.measuring.refusal = None;
+            }
+            Err(refusal) => self.measuring.refusal = Some(refusal),
+        }
+    }
+
+    /// Calls a measurement off, as before this process stops and would hold up all others.
+    pub(super) fn stop_measuring(&mut self) {
+        if self.measuring.run.take().is_some() {
+            self.measuring.refusal = Some(NoChart::Cancelled);
+        }
+    }
+
+    /// Finds out whether the chart is of the picture on the screen.
+    pub(super) fn date_chart(&mut self) {
+        let key = (self.document.version(), self.picture.rays);
+        let Some(chart) = &mut self.measuring.chart else {
+            return;
+        };
+        if chart.seen != Some(key) {
+            chart.is_stale = !chart.of.is(self.document.scene(), &key.1);
+            chart.seen = Some(key);
+        }
+    }
+}
