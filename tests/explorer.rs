@@ -11,10 +11,11 @@ use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 use ratatui::layout::Rect;
 use rayscope::explorer::action::{Action, markdown};
 use rayscope::explorer::{Explorer, Options, Waker};
+use rayscope::geometry::Ray;
 use rayscope::lab::Alone;
-use rayscope::method::Method;
+use rayscope::method::{Class, Method};
 use rayscope::render::{ColorDepth, Style};
-use rayscope::scene::Scene;
+use rayscope::scene::{PixelShape, Rays, Scene, Size};
 
 /// An explorer with a screen.
 struct Person {
@@ -506,6 +507,125 @@ fn two_do_not_measure_at_once_and_one_can_be_stopped() {
         "what was stopped comes to nothing"
     );
     person.presses("1").shows("ray of pixel");
+}
+
+fn ascii_textbook() -> Options {
+    Options {
+        style: Style::Ascii,
+        ..textbook()
+    }
+}
+
+/// The nearest visible hit of all spheres: which, where, and whether it touches.
+fn seen(scene: &Scene, ray: &Ray, method: Method) -> Option<(usize, f32, bool)> {
+    let hits = scene.bodies.iter().enumerate().filter_map(|(i, body)| {
+        let answer = method.solve(ray, &body.sphere);
+        Some((i, answer.visible()?, answer.class == Class::Tangent))
+    });
+    hits.reduce(|first, hit| if hit.1 < first.1 { hit } else { first })
+}
+
+#[test]
+fn a_dial_marks_exactly_what_the_method_gets_wrong() {
+    let mut person = Person::with("trio", 80, 24, ascii_textbook());
+    assert!(!person.screen().contains('!'));
+    for (k, least) in [(1, 0), (6, 1), (9, 300)] {
+        let screen = person.commands(&format!("dial distance {k}")).screen();
+        let scene = person.explorer.scene().clone();
+        let rays = Rays::new(&scene.camera, Size::new(40, 20), PixelShape::Aspect(2.0));
+        let mut wrong = 0;
+        for (y, line) in (0..20).zip(screen.lines().skip(2)) {
+            for (x, shown) in (0..40).zip(line.chars().skip(1)) {
+                let ray = rays.ray(x, y);
+                let [found, truth] =
+                    [Method::Textbook, Method::Exact].map(|m| seen(&scene, &ray, m));
+                // No hit is so far off here that all of its bits are lost.
+                let right = found.map(|f| (f.0, f.2)) == truth.map(|t| (t.0, t.2));
+                assert_eq!(shown == '!', !right, "({x}, {y}) at 2^{k}\n{screen}");
+                wrong += usize::from(!right);
+            }
+        }
+        assert!(wrong >= least, "{wrong} at 2^{k}");
+        let said = match wrong {
+            0 => "no pixel wrong".into(),
+            _ => format!("textbook: {wrong} of 800"),
+        };
+        person.shows(&said);
+    }
+    person.shows("textbook broke at ‖o‖/r × 2^");
+    // exact is right at every setting.
+    person
+        .commands("method exact")
+        .shows("exact does not break");
+    assert!(!person.screen().contains('!'));
+}
+
+#[test]
+fn a_dial_is_turned_back_to_the_scene_as_it_was() {
+    let mut person = Person::with("trio", 80, 24, ascii_textbook());
+    let (before, screen) = (person.explorer.scene().clone(), person.screen());
+    person.presses("9 \\ \\ \\").shows("‖o‖/r × 2^3");
+    person.presses("| |").shows("‖o‖/r × 2^1");
+    person.presses("|").shows("The scene is as it was.");
+    assert_eq!(*person.explorer.scene(), before);
+    person.presses("|").shows("No dial is turned");
+    // The next dial takes the one before back.
+    person.presses("\\ 9").shows("dial: altitude");
+    assert_eq!(*person.explorer.scene(), before);
+    person.commands("dial large 90").shows("scale 2^90");
+    person.presses("u");
+    assert_eq!(*person.explorer.scene(), before);
+    person.presses("U").shows("scale 2^90");
+    person.presses("u 1 right left");
+    assert_eq!(person.screen(), screen);
+    assert!(!person.explorer.is_changed());
+}
+
+#[test]
+fn a_turned_dial_is_nothing_to_save_and_nothing_to_lose() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("mine.toml");
+    let name = path.to_str().unwrap();
+    let mut person = Person::opens("trio", 160, 24);
+    person
+        .commands(&format!("save-as {name}"))
+        .commands("dial offset 4");
+    person.presses("ctrl-s").shows("A dial is turned");
+    assert_eq!(
+        Scene::open(name).unwrap().0.bodies[0].sphere.center.x,
+        -0.75
+    );
+    person.presses("q");
+    assert_eq!(person.explorer.ended(), Some(0));
+
+    let mut person = Person::opens("trio", 160, 24);
+    person.presses("x").commands("dial offset 4").presses("q");
+    person.shows("Unsaved changes");
+    let own = person.explorer.scene().clone();
+    person.presses("esc u");
+    assert!(!person.explorer.is_changed());
+    assert_ne!(*person.explorer.scene(), own);
+}
+
+#[test]
+fn a_dial_that_scenes_do_not_have_is_named_and_so_is_one_that_goes_no_further() {
+    let mut person = Person::opens("trio", 120, 30);
+    person
+        .commands("dial tangency")
+        .shows("rayscope stress --dial tangency");
+    person
+        .presses("esc")
+        .commands("dial nonsense")
+        .shows("expected one of distance");
+    person
+        .presses("esc")
+        .commands("dial large 3")
+        .shows("expected 0 to 120");
+    person.presses("esc").commands("dial distance 24");
+    person.presses("\\").shows("distance goes no further");
+    person
+        .commands("dial altitude 60")
+        .shows("cannot tell that place");
 }
 
 #[test]

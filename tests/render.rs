@@ -289,6 +289,7 @@ fn what_a_method_lost_is_told_from_what_it_got_wrong() {
     let size = Size::new(32, 32);
     let exact = rendered(&far, size, Method::Exact, View::Lost);
     let textbook = rendered(&far, size, Method::Textbook, View::Lost);
+    let class = rendered(&far, size, Method::Textbook, View::Class);
     let [mut wrong, mut lost] = [0, 0];
     for (x, y) in pixels(&exact) {
         let seen = exact.seen(x, y);
@@ -296,7 +297,9 @@ fn what_a_method_lost_is_told_from_what_it_got_wrong() {
         match textbook.lost(x, y) {
             None => assert_eq!(seen, None),
             Some(Lost::Everything) => {
-                assert_ne!(textbook.seen(x, y), seen);
+                // Of one sphere it can touch where it crosses.
+                let touches = class.contact(x, y) == Contact::Tangent;
+                assert!(textbook.seen(x, y) != seen || touches, "({x}, {y})");
                 wrong += 1;
             }
             Some(Lost::Bits(bits)) => {

@@ -20,7 +20,7 @@ use crate::scene::{Body, Scene};
 
 pub use compare::{comparison, measured_bits};
 pub use derivation::{Drawn, Question, Step, derivation};
-pub use figure::{Float, Ink, bits, curve, slice, work};
+pub use figure::{Float, Ink, Setting, bits, curve, slice, turning, work};
 pub use number::{Digits, Glyphs, number, vector};
 pub use panel::{Line, Role, Span, fit, lines, plain_text};
 pub use steps::{StepLook, question_lines, step_lines, step_list, steps_text, wrap};

@@ -55,6 +55,8 @@ impl Glyphs {
                 '▴' | '↑' => out.push('^'),
                 '÷' | '↗' | '↙' => out.push('/'),
                 '↖' | '↘' => out.push('\\'),
+                '‖' => out.push('|'),
+                '½' => out.push_str("1/2"),
                 '∞' => out.push_str("inf"),
                 'A'..='Z' | 'a'..='z' => out.push(c),
                 c if c.is_ascii() => out.push(c),

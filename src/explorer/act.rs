@@ -107,6 +107,9 @@ impl Explorer {
             Action::NextComparison => self.turn_comparison(),
 
             Action::Measure => self.measure(),
+            Action::NextDial => self.next_dial(),
+            Action::TurnOn => self.turn_on(),
+            Action::TurnBack => self.turn_back(),
 
             Action::TourForward => self.tour_forward(),
             Action::TourBack => self.tour_back(),
@@ -154,6 +157,7 @@ impl Explorer {
             Command::Style(style) => self.set_style(style),
             Command::View(view) => self.set_view(view),
             Command::Panel(panel) => self.panel = panel,
+            Command::Dial(dial, k) => self.dial_to(dial, k),
             Command::Step(name) => self.go_to_step_named(&name),
             Command::At(t) => self.scrubbed = Some(t),
             Command::Tour(chapter) => self.tour_to(&chapter),
@@ -315,6 +319,7 @@ impl Explorer {
 
     pub(super) fn travel(&mut self, go: fn(&mut Document) -> bool, nothing: &str) {
         if go(&mut self.document) {
+            self.follow_dial();
             self.mend_selection();
         } else {
             self.say(nothing);

@@ -244,6 +244,13 @@ actions! {
     /// time all methods on this picture, on a thread of its own; again: stop
     Measure "measure" ["%"] Laboratory;
 
+    /// panel: a dial on this scene; again: the next dial
+    NextDial "next-dial" ["9"] Laboratory;
+    /// turn the dial on, from tame to broken
+    TurnOn "turn-on" ["\\"] Laboratory;
+    /// turn the dial back
+    TurnBack "turn-back" ["|"] Laboratory;
+
     /// open the tour; go to its next page
     TourForward "tour-forward" ["f"] Tour;
     /// previous page
@@ -329,7 +336,9 @@ fn group_in_markdown(group: Group) -> String {
         group.title()
     );
     let rows = Action::ALL.iter().filter(|a| a.group() == group).map(|a| {
-        let keys: Vec<_> = a.keys().iter().map(|k| format!("`{k}`")).collect();
+        // A bar ends a cell of a table, in code as well.
+        let key = |k: &&str| format!("`{}`", k.replace('|', "\\|"));
+        let keys: Vec<_> = a.keys().iter().map(key).collect();
         format!("| {} | {} | `{}` |\n", keys.join(" "), a.help(), a.name())
     });
     head + &rows.collect::<String>()

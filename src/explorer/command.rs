@@ -1,5 +1,6 @@
 //! The command line that `:` opens: actions by name, and what takes an argument.
 
+use crate::lab::Dial;
 use crate::method::Method;
 use crate::render::{Style, View};
 use crate::scene::Builtin;
@@ -36,6 +37,8 @@ pub enum Command {
     Stride(f32),
     /// Show this panel.
     Panel(Panel),
+    /// Choose a dial, and turn it to 2^k.
+    Dial(&'static Dial, Option<u32>),
     /// Go to the step of the derivation of that name or number.
     Step(String),
     /// Put the moving point of slice and curve at this t.
@@ -67,6 +70,11 @@ pub const WITH_ARGUMENT: &[(&str, &str, &str)] = &[
         "give a number of the sphere or the camera a value",
     ),
     ("panel", "NAME", "show this panel"),
+    (
+        "dial",
+        "NAME K",
+        "turn the scene along this dial by 2^K; 0 takes it back",
+    ),
     ("step", "NAME", "go to the step of that name or number"),
     (
         "t",
@@ -111,6 +119,7 @@ impl Command {
             "set" => set(rest),
             "stride" => positive(rest, "stride").map(Self::Stride),
             "panel" => choice(rest, "panel", Panel::ALL, Panel::name).map(Self::Panel),
+            "dial" => dial(rest),
             "tour" => argument(rest, "tour", "a chapter's name or number").map(Self::Tour),
             "step" => argument(rest, "step", "a step's name or number").map(Self::Step),
             "t" => match parse_number("t", rest) {
@@ -156,6 +165,32 @@ pub(super) fn choice<T: Copy>(
                 names.join(", ")
             )
         })
+}
+
+fn dial(rest: &str) -> Result<Command, String> {
+    let (name, k) = match rest.split_once(char::is_whitespace) {
+        Some((name, k)) => (name, Some(k.trim())),
+        None => (rest, None),
+    };
+    if let Some(dial) = Dial::by_name(name).filter(|dial| dial.on_scenes().is_none()) {
+        let name = dial.name;
+        return Err(format!(
+            "dial: scenes have no {name}; `rayscope stress --dial {name}` turns it on rays"
+        ));
+    }
+    let dial = choice(name, "dial", Dial::of_scenes(), |dial| dial.name)?;
+    let Some(k) = k else {
+        return Ok(Command::Dial(dial, None));
+    };
+    let settings = || std::iter::once(0).chain(dial.turns());
+    match k.trim_start_matches("2^").parse().ok() {
+        Some(k) if settings().any(|setting| setting == k) => Ok(Command::Dial(dial, Some(k))),
+        _ => Err(format!(
+            "dial: found “{k}”, expected 0 to {} in steps of {}",
+            settings().last().unwrap_or(0),
+            dial.step()
+        )),
+    }
 }
 
 fn cursor(rest: &str) -> Result<Command, String> {
@@ -233,6 +268,7 @@ pub fn complete(line: &str) -> Vec<String> {
         "style" => Style::ALL.iter().map(|s| s.name().to_owned()).collect(),
         "view" => View::ALL.iter().map(|v| v.name().to_owned()).collect(),
         "set" => Field::all_names(),
+        "dial" => Dial::of_scenes().map(|d| d.name.to_owned()).collect(),
         "tour" => tour::builtin().iter().map(|c| c.name.clone()).collect(),
         "open" => {
             let mut words: Vec<_> = Builtin::ALL.iter().map(|b| b.name().to_owned()).collect();

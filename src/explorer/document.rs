@@ -1,5 +1,6 @@
 //! The scene being edited, its history, and whether it differs from what was saved.
 
+use crate::lab::Turn;
 use crate::scene::{Body, Camera, Scene};
 
 /// One change of the scene, which knows how to be undone.
@@ -18,14 +19,34 @@ pub enum Change {
 }
 
 /// A scene with its past and its undone future.
+///
+/// A dial that is turned is the last change of the past, and one change however far it is turned:
+/// taking it back brings the scene back that it was turned on.
 #[derive(Debug, Clone)]
 pub struct Document {
     scene: Scene,
-    past: Vec<Change>,
-    future: Vec<Change>,
+    state: State,
+    past: Vec<Entry>,
+    future: Vec<Entry>,
     /// How long the past was when the scene was saved; none when that state can't be reached.
     saved_at: Option<usize>,
     version: u64,
+}
+
+/// What belongs to a scene beside the scene.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct State {
+    /// The dial that makes it what it is.
+    turn: Option<Turn>,
+    /// A number that is another one for another scene, the dial apart.
+    ground: u64,
+}
+
+/// A change that leads to another scene, and what belongs to that.
+#[derive(Debug, Clone)]
+struct Entry {
+    change: Change,
+    state: State,
 }
 
 impl Document {
@@ -33,6 +54,7 @@ impl Document {
     pub fn new(scene: Scene) -> Self {
         Self {
             scene,
+            state: State::default(),
             past: Vec::new(),
             future: Vec::new(),
             saved_at: Some(0),
@@ -50,47 +72,111 @@ impl Document {
         self.version
     }
 
-    /// Whether there is something that saving would keep.
-    pub fn is_changed(&self) -> bool {
-        self.saved_at != Some(self.past.len())
+    /// The dial that is turned, if one is.
+    pub const fn turn(&self) -> Option<Turn> {
+        self.state.turn
     }
 
-    /// Tells the document that its present state has been saved.
+    /// The scene that the dial is turned on; the scene itself if none is.
+    pub fn ground(&self) -> &Scene {
+        match (self.state.turn, self.past.last()) {
+            (Some(_), Some(entry)) => match &entry.change {
+                Change::Scene(scene) => scene,
+                _ => &self.scene,
+            },
+            _ => &self.scene,
+        }
+    }
+
+    /// A number that is another one whenever [`Document::ground`] may be another scene.
+    pub const fn ground_version(&self) -> u64 {
+        self.state.ground
+    }
+
+    /// Whether there is something that saving would keep. A dial is no change of that kind: it is
+    /// taken back first.
+    pub fn is_changed(&self) -> bool {
+        let turned = usize::from(self.state.turn.is_some());
+        self.saved_at != Some(self.past.len() - turned)
+    }
+
+    /// Tells the document that its present state has been saved; with a dial turned, it is the
+    /// turned scene that is the person's own from now on.
     pub fn mark_saved(&mut self) {
+        if self.state.turn.take().is_some() {
+            self.state.ground = self.version;
+        }
         self.saved_at = Some(self.past.len());
     }
 
     /// Applies a change that [`Document::undo`] takes back; false if it changes nothing.
     pub fn apply(&mut self, change: Change) -> bool {
+        let before = self.state;
         let Some(inverse) = self.perform(change) else {
             return false;
         };
         if self.saved_at.is_some_and(|at| at > self.past.len()) {
             self.saved_at = None;
         }
-        self.past.push(inverse);
+        self.past.push(Entry {
+            change: inverse,
+            state: before,
+        });
         self.future.clear();
+        self.state = State {
+            turn: None,
+            ground: self.version,
+        };
         true
+    }
+
+    /// Makes [`Document::ground`] the scene that a dial turns it into; false if it is that already.
+    pub fn turn_to(&mut self, turn: Turn, scene: Scene) -> bool {
+        self.turn_back();
+        let ground = self.state.ground;
+        if !self.apply(Change::Scene(Box::new(scene))) {
+            return false;
+        }
+        self.state = State {
+            turn: Some(turn),
+            ground,
+        };
+        true
+    }
+
+    /// Takes the dial back; false if none is turned.
+    pub fn turn_back(&mut self) -> bool {
+        self.state.turn.is_some() && self.undo()
     }
 
     /// Takes the last change back; false if there is none.
     pub fn undo(&mut self) -> bool {
-        let Some(change) = self.past.pop() else {
+        let Some(entry) = self.past.pop() else {
             return false;
         };
-        let inverse = self.perform(change);
+        let inverse = self.go(entry);
         self.future.extend(inverse);
         true
     }
 
     /// Does again what was undone last; false if there is nothing.
     pub fn redo(&mut self) -> bool {
-        let Some(change) = self.future.pop() else {
+        let Some(entry) = self.future.pop() else {
             return false;
         };
-        let inverse = self.perform(change);
+        let inverse = self.go(entry);
         self.past.extend(inverse);
         true
+    }
+
+    /// Goes where an entry leads; the entry that leads back.
+    fn go(&mut self, Entry { change, state }: Entry) -> Option<Entry> {
+        let before = std::mem::replace(&mut self.state, state);
+        let change = self.perform(change)?;
+        Some(Entry {
+            change,
+            state: before,
+        })
     }
 
     /// Performs a change and returns the one that takes it back; none if nothing changes.
@@ -130,5 +216,82 @@ impl Document {
         };
         self.version += 1;
         Some(inverse)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::Dial;
+    use crate::scene::Builtin;
+
+    fn turned(document: &mut Document, k: u32) -> bool {
+        let dial = Dial::by_name("distance").unwrap();
+        let scene = dial.turn(document.ground(), k).unwrap();
+        document.turn_to(Turn { dial, k }, scene)
+    }
+
+    fn moved(document: &mut Document) -> bool {
+        let mut body = document.scene().bodies[0].clone();
+        body.sphere.center.x += 1.0;
+        document.apply(Change::Replace(0, body))
+    }
+
+    #[test]
+    fn a_dial_lies_over_the_scene_and_leaves_it_as_it_was() {
+        let scene = Builtin::by_name("trio").unwrap().scene();
+        let mut document = Document::new(scene.clone());
+        for k in [1, 2, 12, 3] {
+            assert!(turned(&mut document, k));
+            assert_eq!(document.turn().map(|turn| turn.k), Some(k));
+            assert_eq!(*document.ground(), scene);
+            assert_ne!(*document.scene(), scene);
+            assert!(!document.is_changed());
+        }
+        let far = document.scene().clone();
+        assert!(document.undo(), "one step, however far it was turned");
+        assert_eq!((document.scene(), document.turn()), (&scene, None));
+        assert!(!document.undo() && document.redo());
+        assert_eq!(document.turn().map(|turn| turn.k), Some(3));
+        assert_eq!(*document.scene(), far);
+        assert!(document.turn_back() && !document.turn_back());
+        assert_eq!(*document.scene(), scene);
+    }
+
+    #[test]
+    fn a_change_of_a_turned_scene_is_a_change() {
+        let scene = Builtin::by_name("trio").unwrap().scene();
+        let mut document = Document::new(scene.clone());
+        assert!(turned(&mut document, 5) && moved(&mut document));
+        assert!(document.is_changed() && document.turn().is_none());
+        let own = document.scene().clone();
+        assert!(turned(&mut document, 1));
+        assert_eq!(*document.ground(), own, "the dial starts from here");
+        assert!(document.is_changed());
+        assert!(document.undo() && document.undo());
+        assert_eq!(document.turn().map(|turn| turn.k), Some(5));
+        assert!(!document.is_changed());
+        assert_eq!(*document.ground(), scene);
+        document.mark_saved();
+        assert!(!document.is_changed() && document.turn().is_none());
+        assert_eq!(document.ground(), document.scene());
+    }
+
+    #[test]
+    fn the_ground_has_a_number_of_its_own() {
+        let mut document = Document::new(Builtin::by_name("trio").unwrap().scene());
+        let first = document.ground_version();
+        turned(&mut document, 4);
+        assert_eq!(document.ground_version(), first);
+        moved(&mut document);
+        let second = document.ground_version();
+        assert_ne!(second, first);
+        turned(&mut document, 2);
+        assert_eq!(document.ground_version(), second);
+        document.undo();
+        document.undo();
+        assert_eq!(document.ground_version(), first);
+        moved(&mut document);
+        assert!(![first, second].contains(&document.ground_version()));
     }
 }

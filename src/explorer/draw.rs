@@ -86,6 +86,9 @@ impl Pen<'_> {
     }
 }
 
+/// What marks a cell with a pixel that is wrong.
+const WRONG: char = '!';
+
 /// The first columns of `text`, ending in a mark that says it goes on.
 fn cut(text: &str, room: usize, mark: &str) -> String {
     let Some(room) = room.checked_sub(mark.width()) else {
@@ -162,16 +165,18 @@ impl Explorer {
             crate::scene::Projection::Perspective { .. } => "perspective",
         };
         let options = self.options;
+        let turned = self.document.turn().map(|turn| turn.formula());
         let words = [
             options.method.name(),
+            turned.as_deref().unwrap_or_default(),
             options.view.shown_in(options.style).name(),
             options.style.name(),
             projection,
         ];
         let mut x = x;
-        for word in words {
+        for word in words.into_iter().filter(|word| !word.is_empty()) {
             // A word that has no room is left out whole: the panel and the help page say it too.
-            if usize::from(x) + word.len() + 3 <= usize::from(room) {
+            if usize::from(x) + word.width() + 3 <= usize::from(room) {
                 x = pen.text(x + 3, area.y, room, word, CellStyle::new());
             }
         }
@@ -282,6 +287,7 @@ impl Explorer {
                     .set_style(CellStyle::new().fg(fg).bg(bg));
             }
         }
+        self.mark_wrong(pen, (x0, y0), shown);
         self.mark_edges(pen, area, shown);
         let (col, row) = self
             .options
@@ -294,6 +300,21 @@ impl Explorer {
         let at = Position::new(x0 + col as u16, y0 + row as u16);
         self.mark_cursor(pen, area, at);
         Some(at)
+    }
+
+    /// A mark on each cell with a pixel that the method gets wrong, while a dial is looked at.
+    fn mark_wrong(&self, pen: &mut Pen<'_>, (x0, y0): (u16, u16), shown: (u16, u16)) {
+        let (left, top) = self.picture.offset;
+        let style = pen.theme.wrong();
+        for (col, row) in self.dialing.wrong_cells(self.options.style, self.size()) {
+            let at = (col.checked_sub(left), row.checked_sub(top));
+            let (Some(col), Some(row)) = at else { continue };
+            if col < shown.0.into() && row < shown.1.into() {
+                pen.buffer[(x0 + col as u16, y0 + row as u16)]
+                    .set_char(WRONG)
+                    .set_style(style);
+            }
+        }
     }
 
     /// Arrows in the border where the picture goes on.

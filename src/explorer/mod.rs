@@ -8,6 +8,7 @@ mod act;
 pub mod action;
 mod arrival;
 mod command;
+mod dialing;
 mod document;
 mod draw;
 mod field;
@@ -43,6 +44,7 @@ pub use measuring::Waker;
 pub use panel::Panel;
 
 use arrival::Arrival;
+use dialing::Dialing;
 use document::Document;
 use key::Key;
 use measuring::Measuring;
@@ -124,6 +126,7 @@ pub struct Explorer {
     /// Where the person was when the tour was put away.
     put_away: Option<Bookmark>,
     measuring: Measuring,
+    dialing: Dialing,
     ended: Option<u8>,
 }
 
@@ -172,6 +175,7 @@ impl Explorer {
             tour: None,
             put_away: None,
             measuring: Measuring::default(),
+            dialing: Dialing::default(),
             ended: None,
         }
     }

@@ -168,6 +168,8 @@ impl Explorer {
         if self.tour.as_ref().is_some_and(Tour::hides_changes) {
             self.leave_tour();
         }
+        // What would be saved is the person's own scene.
+        self.document.turn_back();
         self.mode = Mode::Ask(Question::Quit);
     }
 

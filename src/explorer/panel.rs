@@ -20,6 +20,8 @@ pub enum Panel {
     Compare,
     /// Error against run time for this picture.
     Error,
+    /// A dial on the scene, and what the method gets wrong.
+    Dial,
 }
 
 /// The least width and height that a panel is useful in.
@@ -28,7 +30,7 @@ const LEAST: (u16, u16) = (46, 21);
 impl Panel {
     /// All panels, in the order of their keys, which is also the order in which they fill what room
     /// there is.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Quadratic,
         Self::Steps,
         Self::Slice,
@@ -36,6 +38,7 @@ impl Panel {
         Self::Bits,
         Self::Compare,
         Self::Error,
+        Self::Dial,
     ];
 
     /// The name on the command line.
@@ -48,6 +51,7 @@ impl Panel {
             Self::Bits => "bits",
             Self::Compare => "compare",
             Self::Error => "error",
+            Self::Dial => "dial",
         }
     }
 

@@ -31,6 +31,10 @@ impl Explorer {
             Panel::Bits => self.bits_panel(room),
             Panel::Compare => self.compare_panel(reading, room),
             Panel::Error => self.error_panel(room),
+            Panel::Dial => (
+                format!("dial: {}", self.dialing.dial.name),
+                self.dial_lines(room.width.into(), room.height.into()),
+            ),
         };
         // Only the panel that the person asked for scrolls.
         let hidden = lines.len().saturating_sub(room.height.into());
@@ -60,6 +64,7 @@ impl Explorer {
             Panel::Compare => "C another method".into(),
             Panel::Error if self.measuring.is_running() => "% stop".into(),
             Panel::Error => "% measure".into(),
+            Panel::Dial => "\\ turn on  | back  9 next dial".into(),
             Panel::Quadratic => String::new(),
         }
     }

@@ -86,6 +86,7 @@ impl Explorer {
         self.read(key);
         self.arrive_at_step();
         self.date_chart();
+        self.find_errors();
     }
 
     /// Keeps the cursor on the same place of the picture when the number of pixels changes.

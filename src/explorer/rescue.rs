@@ -48,7 +48,7 @@ impl Explorer {
             return Ok(None);
         }
         let given_up = self.ended.is_some();
-        let text = self.scene().to_toml();
+        let text = self.document.ground().to_toml();
         let Some(rescue) = &mut self.rescue else {
             return Ok(None);
         };

@@ -62,6 +62,11 @@ impl Explorer {
     }
 
     pub(super) fn save(&mut self) {
+        if self.document.turn().is_some() {
+            return self.say(
+                "A dial is turned: | takes it back; :save-as keeps this scene under a name of its own.",
+            );
+        }
         match &self.place {
             FilePlace::None | FilePlace::Builtin(_) => {
                 let suggestion = self.suggested_file();

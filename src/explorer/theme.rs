@@ -77,6 +77,17 @@ impl Theme {
         self.hue(Color::LightRed).add_modifier(Modifier::BOLD)
     }
 
+    /// A cell of the picture that is wrong, whatever it shows.
+    pub fn wrong(self) -> Style {
+        if self.depth == ColorDepth::None {
+            Style::reset().add_modifier(Modifier::BOLD)
+        } else {
+            Style::reset()
+                .fg(Color::LightRed)
+                .add_modifier(Modifier::BOLD)
+        }
+    }
+
     /// Words, over whatever was there before.
     pub const fn plain() -> Style {
         Style::reset()

@@ -25,6 +25,15 @@ pub struct Dial {
     pixel: fn(i32) -> f64,
 }
 
+/// No two dials have the same name.
+impl PartialEq for Dial {
+    fn eq(&self, other: &Self) -> bool {
+        self.name == other.name
+    }
+}
+
+impl Eq for Dial {}
+
 impl Dial {
     /// All dials, in the order of reports.
     pub const ALL: &'static [Self] = &[

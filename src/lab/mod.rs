@@ -30,6 +30,7 @@ pub use hexadecimal::{hexadecimal, numbers};
 pub use machine::Machine;
 pub use random::Random;
 pub use reference::{Reference, Root};
+pub use turn::Turn;
 
 use crate::geometry::{Ray, Sphere};
 

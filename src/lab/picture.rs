@@ -4,17 +4,18 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::alone::Alone;
 use super::bench::{self, MOST_TIMED, Plan, Report, Sample};
-use super::errors::Fault;
-use super::stress::bits_lost;
+use super::errors::{Fault, Percentiles, Wrong};
 use super::timing::{Schedule, SystemClock};
-use crate::method::Method;
+use crate::method::{Method, root_bits_lost};
 use crate::render::{Contact, Frame, Hit, View};
 use crate::scene::{Rays, Scene};
 
 /// What is wrong with the picture at one pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PixelError {
-    /// The right sphere is seen, or rightly none; so many bits of the visible root are lost, from 0
+    /// Rightly nothing is seen.
+    Nothing,
+    /// The right sphere is seen; so many bits of the visible root are lost, from 0
     /// to 24.
     Bits(f64),
     /// A sphere where there is none, none where there is one, a tangent taken for a secant or the
@@ -22,6 +23,68 @@ pub enum PixelError {
     Wrong(Fault),
     /// Another sphere than the one that is nearest.
     OtherSphere,
+}
+
+impl PixelError {
+    /// Whether what is seen is wrong, and not only inexact: the sphere, the class, or all bits of the
+    /// root.
+    pub fn is_wrong(&self) -> bool {
+        match self {
+            Self::Nothing => false,
+            Self::Bits(bits) => *bits >= ALL_BITS,
+            Self::Wrong(_) | Self::OtherSphere => true,
+        }
+    }
+}
+
+/// The bits of a binary32.
+const ALL_BITS: f64 = f32::MANTISSA_DIGITS as f64;
+
+/// The errors of all pixels, counted.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PictureErrors {
+    /// All pixels.
+    pub pixels: usize,
+    /// Wrong answers by kind.
+    pub wrong: Wrong,
+    /// Pixels that show another sphere than the nearest.
+    pub other_sphere: usize,
+    /// Pixels that show the right sphere at a root that has not one right bit.
+    pub no_bit: usize,
+    /// Bits lost where the right sphere is seen: the median and the worst; none if it is nowhere.
+    pub bits: Option<[f64; 2]>,
+}
+
+impl PictureErrors {
+    /// Counts the errors of pixels.
+    pub fn of(errors: &[PixelError]) -> Self {
+        let mut all = Self {
+            pixels: errors.len(),
+            ..Self::default()
+        };
+        let mut lost = Vec::new();
+        for error in errors {
+            match *error {
+                PixelError::Nothing => {}
+                PixelError::Wrong(fault) => all.wrong += fault,
+                PixelError::OtherSphere => all.other_sphere += 1,
+                PixelError::Bits(bits) => {
+                    all.no_bit += usize::from(error.is_wrong());
+                    lost.push(bits);
+                }
+            }
+        }
+        if !lost.is_empty() {
+            let Percentiles { p50, max, .. } = Percentiles::of(&mut lost);
+            all.bits = Some([p50, max]);
+        }
+        all
+    }
+
+    /// Pixels that are wrong in any way.
+    pub const fn total_wrong(&self) -> usize {
+        self.wrong.total() + self.other_sphere + self.no_bit
+    }
 }
 
 /// The errors of a method at each pixel of a picture, row by row, against `exact`: its roots are the
@@ -41,7 +104,7 @@ pub fn pixel_errors(scene: &Scene, rays: &Rays, method: Method) -> Vec<PixelErro
 fn pixel_error(scene: &Scene, [found, truth]: [&Frame; 2], x: u32, y: u32) -> PixelError {
     match (found.hit(scene, x, y), truth.hit(scene, x, y)) {
         _ if found.contact(x, y) == Contact::Nan => PixelError::Wrong(Fault::NotFinite),
-        (None, None) => PixelError::Bits(0.0),
+        (None, None) => PixelError::Nothing,
         (Some(_), None) => PixelError::Wrong(Fault::FalseHit),
         (None, Some(_)) => PixelError::Wrong(Fault::FalseMiss),
         (Some(hit), Some(right)) if hit.body != right.body => PixelError::OtherSphere,
@@ -57,15 +120,8 @@ fn pixel_error(scene: &Scene, [found, truth]: [&Frame; 2], x: u32, y: u32) -> Pi
 }
 
 fn root_error(hit: Hit, right: Hit) -> PixelError {
-    if hit.t == right.t {
-        return PixelError::Bits(0.0);
-    }
-    if !(hit.t.is_finite() && right.t.is_finite()) {
-        return PixelError::Wrong(Fault::NotFinite);
-    }
-    let ulp = f64::from(right.t.next_up()) - f64::from(right.t);
-    let error = (f64::from(hit.t) - f64::from(right.t)).abs();
-    PixelError::Bits(bits_lost(error / ulp))
+    let bits = root_bits_lost(hit.t, right.t);
+    bits.map_or(PixelError::Wrong(Fault::NotFinite), PixelError::Bits)
 }
 
 /// Why there is no chart.
@@ -119,8 +175,8 @@ pub fn chart(scene: &Scene, rays: &Rays, cancel: &AtomicBool) -> Result<Report, 
 mod tests {
     use super::*;
     use crate::lab::Dial;
-    use crate::render::{Style, fit};
-    use crate::scene::Builtin;
+    use crate::render::{Lost, Style, fit};
+    use crate::scene::{Builtin, PixelShape};
 
     fn picture(name: &str) -> (Scene, Rays) {
         let scene = Builtin::by_name(name).unwrap().scene();
@@ -130,10 +186,7 @@ mod tests {
     }
 
     fn wrong(errors: &[PixelError]) -> usize {
-        errors
-            .iter()
-            .filter(|e| !matches!(e, PixelError::Bits(_)))
-            .count()
+        PictureErrors::of(errors).total_wrong()
     }
 
     #[test]
@@ -141,21 +194,53 @@ mod tests {
         let (scene, rays) = picture("trio");
         let exact = pixel_errors(&scene, &rays, Method::Exact);
         assert_eq!(exact.len(), rays.size.area());
-        assert!(exact.iter().all(|e| *e == PixelError::Bits(0.0)));
+        let right = |e: &PixelError| matches!(e, PixelError::Nothing | PixelError::Bits(0.0));
+        assert!(exact.iter().all(right));
         let textbook = pixel_errors(&scene, &rays, Method::Textbook);
         let lossy = |e: &&PixelError| matches!(e, PixelError::Bits(bits) if *bits > 1.0);
         assert!(textbook.iter().filter(lossy).count() > 20);
     }
 
     #[test]
+    fn the_view_of_bits_lost_tells_the_same() {
+        let far = |name: &str, k| {
+            let (scene, rays) = picture(name);
+            let dial = Dial::by_name("distance").unwrap();
+            let far = dial.turn(&scene, k).unwrap();
+            let rays = Rays::new(&far.camera, rays.size, PixelShape::Aspect(2.0));
+            (far, rays)
+        };
+        for (scene, rays) in [
+            picture("grazing"),
+            picture("seed"),
+            far("trio", 8),
+            far("trio", 11),
+        ] {
+            for method in Method::ALL {
+                let mut frame = Frame::new();
+                frame.render(&scene, &rays, method, View::Lost);
+                let width = rays.size.width as usize;
+                for (i, error) in pixel_errors(&scene, &rays, method).iter().enumerate() {
+                    let (x, y) = ((i % width) as u32, (i / width) as u32);
+                    let shown = frame.lost(x, y);
+                    let same = match *error {
+                        PixelError::Nothing => shown.is_none(),
+                        PixelError::Bits(bits) => shown == Some(Lost::Bits(bits as f32)),
+                        PixelError::Wrong(_) | PixelError::OtherSphere => {
+                            shown == Some(Lost::Everything) || frame.contact(x, y) == Contact::Nan
+                        }
+                    };
+                    assert!(same, "{method} ({x}, {y}): {error:?}, {shown:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
     fn turning_the_distance_dial_breaks_the_picture_of_textbook() {
         let (scene, rays) = picture("trio");
         let far = Dial::by_name("distance").unwrap().turn(&scene, 12).unwrap();
-        let far_rays = Rays::new(
-            &far.camera,
-            rays.size,
-            crate::scene::PixelShape::Aspect(2.0),
-        );
+        let far_rays = Rays::new(&far.camera, rays.size, PixelShape::Aspect(2.0));
         assert_eq!(wrong(&pixel_errors(&scene, &rays, Method::Textbook)), 0);
         let textbook = wrong(&pixel_errors(&far, &far_rays, Method::Textbook));
         assert!(textbook > 10, "{textbook}");

@@ -7,18 +7,75 @@ use super::random::power_of_two;
 use crate::geometry::Sphere;
 use crate::scene::{Projection, Scene};
 
+/// A dial, and how far it is turned on a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Turn {
+    /// The dial.
+    pub dial: &'static Dial,
+    /// It is turned by 2^k into the direction in which it breaks; at least 1.
+    pub k: u32,
+}
+
+impl Turn {
+    /// The quantity of the dial and its value, as a formula.
+    pub fn formula(&self) -> String {
+        let Self { dial, k } = self;
+        match dial.name {
+            // What is turned has a value of its own in each scene.
+            "distance" => format!("{} × 2^{k}", dial.quantity),
+            "altitude" => format!("{} × 2^-{k}", dial.quantity),
+            "small" => format!("{} 2^-{k}", dial.quantity),
+            _ => format!("{} 2^{k}", dial.quantity),
+        }
+    }
+}
+
 impl Dial {
+    /// The dials that scenes have.
+    pub fn of_scenes() -> impl Iterator<Item = &'static Self> {
+        Self::ALL.iter().filter(|dial| dial.on_scenes().is_some())
+    }
+
+    /// What turning it does to a scene, as a sentence; none for a dial that scenes do not have: a
+    /// camera's directions are about 1 long, and no scene is a single tangent.
+    pub fn on_scenes(&self) -> Option<&'static str> {
+        match self.name {
+            "distance" => {
+                Some("The camera backs away from what it looks at, and its view narrows.")
+            }
+            "altitude" => Some("The camera comes down on the sphere whose surface is nearest."),
+            "offset" => Some("Everything moves away from the world's origin."),
+            "large" => Some("Everything grows."),
+            "small" => Some("Everything shrinks."),
+            _ => None,
+        }
+    }
+
+    /// The settings k of a scene from 1 on, as far as the dial goes there.
+    pub fn turns(&self) -> impl Iterator<Item = u32> + use<> {
+        let most = match self.name {
+            // Farther away binary32 has no two directions between which the picture would lie.
+            "distance" => 24,
+            _ => u32::MAX,
+        };
+        let settings = self.settings().map(i32::unsigned_abs);
+        settings.filter(move |k| (1..=most).contains(k))
+    }
+
     /// The scene with this dial turned by 2^k, k from 0 on into the direction in which the dial
-    /// breaks; none for a dial that scenes do not have (a camera's directions are about 1 long, and
-    /// no scene is a single tangent), and where a number would leave the range of binary32.
+    /// breaks; none for a dial that scenes do not have, and where a number would leave the range of
+    /// binary32 or the camera would no longer move.
     ///
     /// * `distance`: the camera backs away from what it looks at, and its field of view narrows.
+    /// * `altitude`: the camera comes straight down to 2^-k of its height over the nearest surface,
+    ///   and goes on looking the same way.
     /// * `offset`: everything moves away from the origin, by 2^k times the camera's distance.
     /// * `large`, `small`: everything is scaled.
     pub fn turn(&self, scene: &Scene, k: u32) -> Option<Scene> {
         let k = i32::try_from(k).ok().filter(|&k| k <= 200)?;
         let turned = match self.name {
             "distance" => back_away(scene, power_of_two(k)),
+            "altitude" => come_down(scene, power_of_two(-k))?,
             "offset" => offset(scene, power_of_two(k)),
             "large" => moved(scene, |p| power_of_two(k) * p, power_of_two(k)),
             "small" => moved(scene, |p| power_of_two(-k) * p, power_of_two(-k)),
@@ -26,6 +83,29 @@ impl Dial {
         };
         is_sound(&turned).then_some(turned)
     }
+}
+
+/// The camera at `part` of its height over the surface that is nearest to it, from outside or
+/// inside; none where binary32 cannot tell that place from the surface.
+fn come_down(scene: &Scene, part: f64) -> Option<Scene> {
+    let mut turned = scene.clone();
+    let camera = &mut turned.camera;
+    let eye = camera.position.as_dvec3();
+    let height = |sphere: &Sphere| {
+        let out = eye - sphere.center.as_dvec3();
+        (out.length() - f64::from(sphere.radius), out)
+    };
+    let heights = scene.bodies.iter().map(|body| height(&body.sphere));
+    let (height, out) = heights.min_by(|(one, _), (other, _)| one.abs().total_cmp(&other.abs()))?;
+    let down = out.try_normalize()? * (height * (part - 1.0));
+    let position = (eye + down).as_vec3();
+    let rounding = (position.as_dvec3() - (eye + down)).length();
+    if rounding > 0.25 * (height * part).abs() {
+        return None;
+    }
+    camera.look_at = (camera.look_at.as_dvec3() + down).as_vec3();
+    camera.position = position;
+    Some(turned)
 }
 
 fn back_away(scene: &Scene, factor: f64) -> Scene {
@@ -110,6 +190,37 @@ mod tests {
                 .filter(|(a, b)| a != b)
                 .count();
             assert!(changed < 120, "{dial}: {changed} of 800 pixels");
+        }
+    }
+
+    #[test]
+    fn the_camera_comes_down_to_a_part_of_its_height() {
+        let scene = Builtin::by_name("planet").unwrap().scene();
+        let altitude = Dial::by_name("altitude").unwrap();
+        let height = |scene: &Scene| {
+            let ground = scene.bodies[0].sphere;
+            let out = scene.camera.position.as_dvec3() - ground.center.as_dvec3();
+            out.length() - f64::from(ground.radius)
+        };
+        let before = height(&scene);
+        for k in [1, 5, 10] {
+            let turned = altitude.turn(&scene, k).unwrap();
+            let part = height(&turned) / before * power_of_two(k as i32);
+            assert!((0.7..1.3).contains(&part), "2^-{k}: {part}");
+            let way = |s: &Scene| s.camera.look_at - s.camera.position;
+            assert!(way(&turned).angle_between(way(&scene)) < 1e-3);
+        }
+        let trio = Builtin::by_name("trio").unwrap().scene();
+        assert!(altitude.turn(&trio, 60).is_none(), "on the surface");
+    }
+
+    #[test]
+    fn every_dial_of_scenes_can_be_turned_and_no_other() {
+        let scene = Builtin::by_name("trio").unwrap().scene();
+        for dial in Dial::ALL {
+            let turned = dial.turn(&scene, 1).is_some();
+            assert_eq!(turned, dial.on_scenes().is_some(), "{}", dial.name);
+            assert!(dial.turns().all(|k| k as i32 % dial.step() == 0));
         }
     }
 

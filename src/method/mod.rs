@@ -23,7 +23,7 @@ mod truth;
 pub use dyadic::Dyadic;
 pub use surd::{Digits, Surd};
 pub use trace::Trace;
-pub use truth::{Truth, ulp_error};
+pub use truth::{Truth, bits_lost, root_bits_lost, ulp_error};
 
 use std::fmt;
 

@@ -135,3 +135,23 @@ fn dot(u: &[Dyadic; 3], v: &[Dyadic; 3]) -> Dyadic {
     let [x, y, z] = [0, 1, 2].map(|i| &u[i] * &v[i]);
     &(&x + &y) + &z
 }
+
+/// How many of the 24 bits of an answer an error makes worthless: log₂ of the error in half ulps; 0
+/// for an error of half an ulp, 24 where nothing is left.
+pub fn bits_lost(ulps: f64) -> f64 {
+    (2.0 * ulps)
+        .max(1.0)
+        .log2()
+        .min(f64::from(f32::MANTISSA_DIGITS))
+}
+
+/// The bits that a root above 0 lost, held against the exact one rounded once: 0 for the same
+/// number, none if one of two different ones is infinite.
+pub fn root_bits_lost(answer: f32, exact: f32) -> Option<f64> {
+    if answer == exact {
+        return Some(0.0);
+    }
+    let ulp = f64::from(exact.next_up()) - f64::from(exact);
+    let error = (f64::from(answer) - f64::from(exact)).abs();
+    (answer.is_finite() && exact.is_finite()).then(|| bits_lost(error / ulp))
+}

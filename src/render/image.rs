@@ -120,7 +120,7 @@ impl Painter<'_> {
 
     /// What is to be seen at pixel (x, y); nothing where nothing is.
     fn ink(&mut self, x: u32, y: u32) -> Option<Ink> {
-        ink(self.frame, self.scene, self.look.depth, self.ramps, (x, y))
+        ink(self.frame, self.scene, self.look, self.ramps, (x, y))
     }
 
     /// Whether levels are shown by how many dots there are, for want of colours.
@@ -155,8 +155,8 @@ impl Painter<'_> {
 
     fn half(&mut self, x: u32, y: u32) -> Cell {
         let (top, bottom) = (self.ink(x, y), self.ink(x, y + 1));
-        if let Some(nan) = [top, bottom].into_iter().flatten().find(Ink::is_no_answer) {
-            return Cell::of(NO_ANSWER, nan.color);
+        if let Some(ink) = [top, bottom].into_iter().flatten().find(Ink::is_alarm) {
+            return Cell::of(ink.glyph, ink.color);
         }
         let glyph = quadrants(self.quarters(top), self.quarters(bottom));
         let glyph = if self.look.ascii_only {
@@ -193,7 +193,7 @@ impl Painter<'_> {
             let Some(ink) = self.ink(x, y) else {
                 continue;
             };
-            if self.dithers() && !ink.is_no_answer() && !self.has_dot(x, y, &ink) {
+            if self.dithers() && !ink.is_alarm() && !self.has_dot(x, y, &ink) {
                 continue;
             }
             dots |= dot;
@@ -204,8 +204,8 @@ impl Painter<'_> {
         let Some(seen) = seen else {
             return Cell::BLANK;
         };
-        let glyph = if seen.is_no_answer() {
-            NO_ANSWER
+        let glyph = if seen.is_alarm() {
+            seen.glyph
         } else if self.look.ascii_only {
             ascii_for_dots(dots)
         } else {

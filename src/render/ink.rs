@@ -4,8 +4,9 @@ use glam::Vec3;
 
 use super::color::color_of;
 use super::frame::FARTHEST_MISS;
+use super::image::Look;
 use super::ramp::Ramps;
-use super::{ColorDepth, Contact, Frame, Lost, View};
+use super::{ColorDepth, Contact, Frame, Lost, Style, View};
 use crate::method::exact::Stage;
 use crate::scene::{Rgb, Scene};
 
@@ -27,6 +28,9 @@ pub(super) struct Ink {
 /// What marks a pixel for which a method has no answer.
 pub(super) const NO_ANSWER: char = '?';
 
+/// What marks a pixel that is wrong and not only inexact.
+pub(super) const WRONG: char = '!';
+
 /// From dark to bright. Even the darkest is no blank: it is a hit.
 const RAMP: &[u8] = b".,:-=+*#%@";
 
@@ -45,9 +49,9 @@ const LEFT: usize = 0b10;
 const RIGHT: usize = 0b01;
 
 impl Ink {
-    /// Whether the method has no answer here.
-    pub(super) fn is_no_answer(&self) -> bool {
-        self.glyph == NO_ANSWER
+    /// Whether the method has no answer here, or a wrong one: every style shows that by its glyph.
+    pub(super) fn is_alarm(&self) -> bool {
+        [NO_ANSWER, WRONG].contains(&self.glyph)
     }
 
     /// Which of several pixels gives its colour to the cell: what is rare, then what is bright.
@@ -69,12 +73,15 @@ struct Tone {
 pub(super) fn ink(
     frame: &Frame,
     scene: &Scene,
-    depth: ColorDepth,
+    look: Look,
     ramps: &mut Ramps,
     (x, y): (u32, u32),
 ) -> Option<Ink> {
     let contact = frame.contact(x, y);
-    let colored = depth != ColorDepth::None;
+    let colored = look.depth != ColorDepth::None;
+    // A character says how bright it is: with one colour a sphere it is read more easily, and far
+    // fewer changes of colour go over the line.
+    let level_is_in_glyph = look.style == Style::Ascii;
     if contact == Contact::Nan || frame.view() == View::Class {
         return of_class(contact, colored);
     }
@@ -94,7 +101,8 @@ pub(super) fn ink(
         rarity: tone.rarity,
         color: colored.then(|| {
             let shades = ramps.of(tone.base);
-            shades[step(tone.level, shades.len())]
+            let level = if level_is_in_glyph { 1.0 } else { tone.level };
+            shades[step(level, shades.len())]
         }),
     })
 }
@@ -228,7 +236,7 @@ fn delta(frame: &Frame, x: u32, y: u32) -> Option<Tone> {
 
 fn lost(frame: &Frame, x: u32, y: u32) -> Option<Tone> {
     let (glyph, level, quarters, rarity, base) = match frame.lost(x, y)? {
-        Lost::Everything => ('!', 1.0, FULL, 2, PURPLE),
+        Lost::Everything => (WRONG, 1.0, FULL, 2, PURPLE),
         Lost::Bits(0.0) => ('.', 0.2, RIGHT, 0, WHITE),
         Lost::Bits(bits) => {
             let whole = (bits.ceil() as u32).clamp(1, 24);

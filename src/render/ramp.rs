@@ -72,22 +72,29 @@ fn dimmed(Rgb(r, g, b): Rgb, factor: f32) -> Rgb {
     Rgb(dim(r), dim(g), dim(b))
 }
 
+/// The colours of the terminal that have this hue, spread over the shades by their lightness.
+///
+/// The terminal has few dark colours and many light ones, so the ramp begins at the darkest of them
+/// and ends a little above `color` itself, as a light would have it: more shades, each a clean one.
 fn nearest_shades(color: Rgb, depth: ColorDepth) -> Vec<Rgb> {
-    // A coloured sphere is never shown in grey, nor a grey one in colour: it would look like another.
-    let is_grey = perceived(color).chroma() < GREY;
-    let candidates: Vec<_> = XTERM
+    let base = perceived(color);
+    let alike: Vec<_> = XTERM
         .iter()
-        .filter(|(_, seen)| (seen.chroma() < GREY) == is_grey)
+        .filter(|(_, seen)| seen.is_shade_of(base))
         .collect();
-    exact_shades(color, depth)
-        .map(|shade| {
-            let wanted = perceived(shade);
-            candidates
-                .iter()
-                .min_by(|(_, a), (_, b)| wanted.distance(*a).total_cmp(&wanted.distance(*b)))
-                .map_or(color, |(there_is, _)| *there_is)
+    let lightness = alike.iter().map(|(_, seen)| seen.lightness);
+    let (least, most) = lightness.fold((1.0_f32, 0.0_f32), |(l, m), x| (l.min(x), m.max(x)));
+    let last = f32::from(depth.shades() - 1);
+    let mut shades: Vec<_> = (0..depth.shades())
+        .map(|i| base.at(least + (most - least) * f32::from(i) / last))
+        .filter_map(|wanted| {
+            let nearest = wanted.nearest_of(alike.iter().copied());
+            nearest.or_else(|| base.nearest_of(XTERM.iter()))
         })
-        .collect()
+        .copied()
+        .collect();
+    shades.sort_by(|(_, a), (_, b)| a.lightness.total_cmp(&b.lightness));
+    shades.into_iter().map(|(there_is, _)| there_is).collect()
 }
 
 /// The dull and the bright one of the sixteen that are nearest in hue. They tell spheres apart, and
@@ -109,6 +116,12 @@ fn two_shades(color: Rgb) -> [Rgb; 2] {
 
 /// Chroma in Oklab below which a colour is a grey to the eye.
 const GREY: f32 = 0.03;
+/// The cosine of 29°, between neighbours among six named hues: what is farther off is another hue.
+const ONE_HUE: f32 = 0.87;
+/// The part of its chroma that a shade must keep not to look grey beside the others.
+const STILL_COLORED: f32 = 0.8;
+/// How much lighter than a colour its lightest shade may be.
+const LIT: f32 = 0.19;
 
 /// A colour in Oklab (Ottosson, 2020), where distance is about what the eye makes of it.
 #[derive(Debug, Clone, Copy)]
@@ -123,12 +136,43 @@ impl Perceived {
         self.a.hypot(self.b)
     }
 
-    /// The square of a distance in which hue counts most: a shade may be paler, not of another hue.
+    /// This colour lighter or darker, with less chroma where it is darker.
+    fn at(self, lightness: f32) -> Self {
+        let part = (lightness / self.lightness).min(1.0);
+        Self {
+            lightness,
+            a: self.a * part,
+            b: self.b * part,
+        }
+    }
+
+    /// Whether this passes for a shade of `base`. A coloured sphere is never shown in grey, nor a grey
+    /// one in colour: it would look like another.
+    fn is_shade_of(self, base: Self) -> bool {
+        if self.lightness > base.lightness + LIT {
+            return false;
+        }
+        if base.chroma() < GREY {
+            return self.chroma() < GREY;
+        }
+        let same_way = self.a * base.a + self.b * base.b;
+        same_way > ONE_HUE * self.chroma() * base.chroma()
+            && self.chroma() > STILL_COLORED * base.at(self.lightness).chroma()
+    }
+
+    /// The one of these colours that is most like this.
+    fn nearest_of<'a>(
+        self,
+        colors: impl Iterator<Item = &'a (Rgb, Self)>,
+    ) -> Option<&'a (Rgb, Self)> {
+        colors.min_by(|(_, a), (_, b)| self.distance(*a).total_cmp(&self.distance(*b)))
+    }
+
+    /// The square of a distance in which colour counts more than lightness: a shade may be somewhat
+    /// lighter or darker, not paler or of another hue.
     fn distance(self, other: Self) -> f32 {
         let lightness = (self.lightness - other.lightness).powi(2);
-        let chroma = (self.chroma() - other.chroma()).powi(2);
-        let hue = (self.a - other.a).powi(2) + (self.b - other.b).powi(2) - chroma;
-        lightness + 2.0 * chroma + 8.0 * hue
+        lightness + 4.0 * ((self.a - other.a).powi(2) + (self.b - other.b).powi(2))
     }
 }
 
@@ -216,6 +260,26 @@ mod tests {
             let lightness = |c: &Rgb| perceived(*c).lightness;
             assert!(shades.is_sorted_by_key(lightness), "{shades:?}");
             assert!(shades.iter().all(|c| perceived(*c).chroma() > GREY));
+            let mut apart = shades.to_vec();
+            apart.dedup();
+            assert!(apart.len() >= 4, "{shades:?}");
+        }
+    }
+
+    #[test]
+    fn any_color_has_shades() {
+        let mut ramps = Ramps::default();
+        ramps.set_depth(ColorDepth::Ansi256);
+        let values = [0, 1, 40, 127, 200, 255];
+        for r in values {
+            for (g, b) in values.into_iter().flat_map(|g| values.map(|b| (g, b))) {
+                let shades = ramps.of(Rgb(r, g, b));
+                let lightness = |c: &Rgb| perceived(*c).lightness;
+                assert!(
+                    shades.is_sorted_by_key(lightness),
+                    "{r} {g} {b}: {shades:?}"
+                );
+            }
         }
     }
 }

@@ -17,6 +17,7 @@ mod section;
 mod slice;
 #[cfg(test)]
 mod tests;
+mod turning;
 mod view;
 mod work;
 
@@ -24,4 +25,5 @@ pub use bits::{Float, bits};
 pub use canvas::Ink;
 pub use curve::curve;
 pub use slice::slice;
+pub use turning::{Setting, turning};
 pub use work::work;

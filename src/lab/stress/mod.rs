@@ -17,6 +17,7 @@ use super::promise;
 use super::reference::{Reference, Root};
 use super::{Checksum, Problem};
 use crate::geometry::{Ray, Sphere};
+pub use crate::method::bits_lost;
 use crate::method::{Method, Solution};
 
 /// One method at one setting of a dial.
@@ -40,12 +41,6 @@ impl Cell {
     pub fn bits_worst(&self) -> Option<f64> {
         (self.errors.judged > 0).then(|| bits_lost(self.errors.ulp.max))
     }
-}
-
-/// How many of the 24 bits of an answer an error makes worthless: log₂ of the error in half ulps; 0
-/// for an error of half an ulp, 24 where nothing is left.
-pub fn bits_lost(ulps: f64) -> f64 {
-    (2.0 * ulps).max(1.0).log2().min(24.0)
 }
 
 /// All methods at one setting of a dial.

@@ -35,9 +35,10 @@ pub struct Hit {
 /// What a method lost of the visible root, held against the exact one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Lost {
-    /// So many bits, 0 to 24: log2(1 + the error in ulps).
+    /// So many bits, 0 to 24: log₂ of the error in half ulps.
     Bits(f32),
-    /// The method sees another sphere than there is, one where there is none, or none.
+    /// The method sees another sphere than there is, one where there is none, or none; a tangent
+    /// for a secant or the reverse; a root that is wrongly infinite.
     Everything,
 }
 

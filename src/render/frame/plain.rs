@@ -3,11 +3,12 @@
 use super::{FARTHEST_MISS, Frame};
 use crate::geometry::{Ray, Sphere};
 use crate::method::exact;
-use crate::method::{Class, Method, Place};
+use crate::method::{Class, Method, Place, root_bits_lost};
 use crate::render::View;
 use crate::render::bounds::Eye;
 use crate::render::cover::Bounds;
 use crate::render::finish;
+use crate::render::layer::Contact;
 use crate::render::nearest::{NOBODY, Question};
 use crate::render::plan::Way;
 use crate::render::shade;
@@ -139,6 +140,12 @@ impl Frame {
         }
     }
 
+    /// Whether the sphere that is seen is rightly touched or rightly crossed.
+    fn has_right_class(&self, place: usize, ray: &Ray, sphere: &Sphere) -> bool {
+        let touches = self.seen.contact[place] == Contact::Tangent;
+        touches == (Method::Exact.solve(ray, sphere).class == Class::Tangent)
+    }
+
     /// What the view asks of the sphere that is seen at one pixel.
     fn finish_pixel(&mut self, scene: &Scene, place: usize) {
         let number = self.seen.body[place];
@@ -158,11 +165,12 @@ impl Frame {
                 self.value[place] = hit.brightness(scene.light);
             }
             (View::Lost, _) => {
-                self.value[place] = if number == self.truth.body[place] {
-                    bits_lost(self.seen.t[place], self.truth.t[place])
-                } else {
-                    f32::INFINITY
-                };
+                let is_right = number == self.truth.body[place]
+                    && sphere.is_none_or(|s| self.has_right_class(place, ray, s));
+                let bits = is_right
+                    .then(|| root_bits_lost(self.seen.t[place], self.truth.t[place]))
+                    .flatten();
+                self.value[place] = bits.map_or(f32::INFINITY, |bits| bits as f32);
             }
             // The stage that rounded the visible root counts, beside those that were sure of a class.
             (View::Stage, Some(sphere)) => {
@@ -177,16 +185,6 @@ impl Frame {
             _ => {}
         }
     }
-}
-
-/// log2(1 + |answer − exact| in ulps), at most the 24 bits that there are.
-fn bits_lost(answer: f32, exact: f32) -> f32 {
-    if answer == exact {
-        return 0.0;
-    }
-    let ulp = f64::from(exact.next_up()) - f64::from(exact);
-    let ulps = (f64::from(answer) - f64::from(exact)).abs() / ulp;
-    ((1.0 + ulps).log2() as f32).min(f32::MANTISSA_DIGITS as f32)
 }
 
 /// Δ/(4Ar²) as `method` has it: −∞ for a miss, 0 for a meeting where that is not a number, as with
