@@ -11,6 +11,7 @@ mod number;
 mod panel;
 mod plan;
 mod steps;
+pub mod worksheet;
 
 use glam::{DVec3, Vec3};
 
@@ -25,6 +26,7 @@ pub use number::{Digits, Glyphs, number, vector};
 pub use panel::{Line, Role, Span, fit, lines, plain_text};
 pub use plan::{plan_panel, plan_text};
 pub use steps::{StepLook, question_lines, step_lines, step_list, steps_text, wrap};
+pub use worksheet::Worksheet;
 
 /// What the ray of one pixel finds in a scene.
 #[derive(Debug, Clone)]
