@@ -134,7 +134,9 @@ impl Explorer {
                 }
                 if let Some(action) = Action::bound_to(key) {
                     self.act(action);
-                } else if !key.is("esc") {
+                } else if key.is("esc") {
+                    self.picture.changed.fill(false);
+                } else {
                     self.say("This key does nothing. ? shows the keys.");
                 }
             }
