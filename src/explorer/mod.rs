@@ -7,6 +7,7 @@
 mod act;
 pub mod action;
 mod arrival;
+mod casing;
 mod command;
 mod dialing;
 mod document;
