@@ -10,6 +10,7 @@ mod scenes;
 mod solve;
 mod stress;
 mod tour;
+mod worksheet;
 
 use std::fmt;
 use std::io::{ErrorKind, Write};
@@ -39,6 +40,7 @@ enum Command {
     Solve(solve::Solve),
     Stress(stress::Stress),
     Tour(Box<tour::Tour>),
+    Worksheet(worksheet::Worksheet),
 }
 
 /// Runs the program with the arguments of this process.
@@ -53,6 +55,7 @@ pub fn main() -> ExitCode {
         Some(Command::Solve(arguments)) => solve::run(&arguments),
         Some(Command::Stress(arguments)) => stress::run(&arguments),
         Some(Command::Tour(arguments)) => tour::run(&arguments),
+        Some(Command::Worksheet(arguments)) => worksheet::run(&arguments),
     }
 }
 

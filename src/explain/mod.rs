@@ -10,6 +10,7 @@ mod figure;
 mod number;
 mod panel;
 mod steps;
+pub mod worksheet;
 
 use glam::{DVec3, Vec3};
 
@@ -23,6 +24,7 @@ pub use figure::{Float, Ink, Setting, bits, curve, slice, turning, work};
 pub use number::{Digits, Glyphs, number, vector};
 pub use panel::{Line, Role, Span, fit, lines, plain_text};
 pub use steps::{StepLook, question_lines, step_lines, step_list, steps_text, wrap};
+pub use worksheet::Worksheet;
 
 /// What the ray of one pixel finds in a scene.
 #[derive(Debug, Clone)]

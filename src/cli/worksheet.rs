@@ -1,0 +1,126 @@
+//! `rayscope worksheet`: exercises about pixels of a scene, for pencil and paper.
+
+use std::process::ExitCode;
+
+use clap::{Args, ValueEnum};
+
+use super::print::size;
+use super::{INVALID, complain, write_out};
+use crate::explain::worksheet::{self, Part};
+use crate::render::{CELL_ASPECT, Style, fit};
+use crate::scene::{PixelShape, Rays, Scene, Size};
+use crate::terminal::Capability;
+
+/// Print exercises about pixels of a scene for pencil and paper, and their answers on a page apart
+#[derive(Debug, Args)]
+pub(super) struct Worksheet {
+    /// A scene file, or the name of a built-in scene
+    scene: String,
+
+    /// Which pixels are drawn: the same seed gives the same sheet on every machine
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+
+    /// How many exercises; fewer if the scene has not that much to show
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=100))]
+    count: u16,
+
+    /// Width and height in pixels of the picture that they are of [default: the scene's own, or
+    /// 40x40]
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    size: Option<Size>,
+
+    /// How the sheet is written
+    #[arg(long, value_name = "FORMAT", value_enum, default_value_t)]
+    format: Format,
+
+    /// Only one of the two parts [default: both, the answers on a page of their own]
+    #[arg(long, value_name = "PART", value_enum)]
+    only: Option<Only>,
+}
+
+/// How a worksheet is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+enum Format {
+    /// To be printed as it is; a form feed begins a new page
+    #[default]
+    Text,
+    /// To be worked on with other programs
+    Markdown,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Only {
+    /// What the students get
+    Exercises,
+    /// The answers
+    Key,
+}
+
+/// The picture of a scene that fixes none.
+const SIZE: Size = Size::new(40, 40);
+
+/// Writes the worksheet, or why there is none.
+pub(super) fn run(arguments: &Worksheet) -> ExitCode {
+    match text(arguments) {
+        Ok(text) => write_out(&Capability::of_output().glyphs.spell(&text)),
+        Err(sentence) => {
+            complain(sentence);
+            INVALID.into()
+        }
+    }
+}
+
+fn text(arguments: &Worksheet) -> Result<String, String> {
+    let Worksheet { seed, count, .. } = *arguments;
+    let (scene, _) = Scene::open(&arguments.scene).map_err(|e| e.to_string())?;
+    if scene.bodies.is_empty() {
+        return Err(format!(
+            "{}: the scene has no spheres; expected one to ask about",
+            arguments.scene
+        ));
+    }
+    let rays = rays(&scene, arguments.size);
+    let see = command(&arguments.scene, &scene, rays.size);
+    let sheet = worksheet::Worksheet::new(&scene, &rays, seed, count.into(), see);
+    if sheet.count() == 0 {
+        return Err(format!(
+            "{}: no pixel of it has numbers that can be worked by hand; try another --size",
+            arguments.scene
+        ));
+    }
+    let write = |part| match arguments.format {
+        Format::Text => sheet.text(part),
+        Format::Markdown => sheet.markdown(part),
+    };
+    Ok(match arguments.only {
+        Some(Only::Exercises) => write(Part::Exercises),
+        Some(Only::Key) => write(Part::Key),
+        None => {
+            let new_page = match arguments.format {
+                Format::Text => "\u{c}",
+                Format::Markdown => "\n<div style=\"page-break-after: always\"></div>\n\n",
+            };
+            write(Part::Exercises) + new_page + &write(Part::Key)
+        }
+    })
+}
+
+/// The command that works out a pixel of that picture.
+fn command(name: &str, scene: &Scene, size: Size) -> String {
+    let picture = if scene.pixels == Some(size) {
+        String::new()
+    } else {
+        format!(" --style half --size {}x{}", size.width, size.height)
+    };
+    format!("rayscope print {name}{picture} --pixel X,Y --steps")
+}
+
+/// The rays of the picture that is asked for, of the scene's own, or of one with square pixels.
+fn rays(scene: &Scene, asked: Option<Size>) -> Rays {
+    let (own, shape) = fit(scene, Style::Half, SIZE.width, SIZE.height / 2, CELL_ASPECT);
+    match asked {
+        Some(asked) if asked != own => Rays::new(&scene.camera, asked, PixelShape::Aspect(1.0)),
+        _ => Rays::new(&scene.camera, own, shape),
+    }
+}
