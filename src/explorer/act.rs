@@ -96,6 +96,7 @@ impl Explorer {
             Action::PanelBits => self.panel = Panel::Bits,
             Action::PanelCompare => self.panel = Panel::Compare,
             Action::PanelError => self.panel = Panel::Error,
+            Action::PanelPlan => self.panel = Panel::Plan,
             Action::NextStep => self.next_step(),
             Action::PreviousStep => self.go_to_step(self.step_at.saturating_sub(1)),
             Action::FirstStep => self.go_to_step(0),

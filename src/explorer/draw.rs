@@ -166,10 +166,7 @@ impl Explorer {
         let room = area.width.saturating_sub(width + 1);
         let name = format!(" {}", self.scene().name);
         let x = pen.text(area.x, area.y, room, &name, strong);
-        let projection = match self.scene().camera.projection {
-            crate::scene::Projection::Orthographic { .. } => "orthographic",
-            crate::scene::Projection::Perspective { .. } => "perspective",
-        };
+        let projection = self.scene().camera.projection.name();
         let options = self.options;
         let turned = self.document.turn().map(|turn| turn.formula());
         let words = [
