@@ -10,9 +10,9 @@ use ratatui::buffer::Buffer;
 use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 use ratatui::layout::Rect;
 use rayscope::explorer::action::{Action, markdown};
-use rayscope::explorer::{Explorer, Options, Waker};
+use rayscope::explorer::{Explorer, Options, Request, Waker};
 use rayscope::geometry::Ray;
-use rayscope::lab::Alone;
+use rayscope::lab::{Alone, HEADER};
 use rayscope::method::{Class, Method};
 use rayscope::render::{ColorDepth, Style};
 use rayscope::scene::{PixelShape, Rays, Scene, Size};
@@ -635,6 +635,59 @@ fn a_dial_that_scenes_do_not_have_is_named_and_so_is_one_that_goes_no_further() 
     person
         .commands("dial altitude 60")
         .shows("cannot tell that place");
+}
+
+#[test]
+fn a_pixel_is_copied_as_a_row_and_as_test_cases_and_shown() {
+    let mut person = Person::opens("seed", 80, 24);
+    let copied = |person: &mut Person| match person.explorer.take_request() {
+        Some(Request::Copy(text)) => text,
+        other => panic!("{other:?}"),
+    };
+    person.presses("&").shows("a row for rayscope grade");
+    let row = "20,20,0,0,0,1,20,20,20,10,secant,10,30";
+    person.shows(row);
+    assert_eq!(copied(&mut person), format!("{HEADER}\n{row}\n"));
+    person.presses("&").shows("a test case in C");
+    person.shows("const float expected_roots[2] = {0x1.4p+3f, 0x1.ep+4f};");
+    assert!(copied(&mut person).contains("const float r = 0x1.4p+3f;"));
+    person
+        .presses("&")
+        .shows("let [r] = [0x41200000].map(f32::from_bits);");
+    copied(&mut person);
+    person.presses("esc").shows("ray of pixel");
+    person
+        .commands("cursor 0 0")
+        .commands("copy c")
+        .shows("\"miss\"");
+    assert!(!copied(&mut person).contains("roots"));
+    person
+        .presses("esc")
+        .commands("copy nonsense")
+        .shows("row, c, rust");
+}
+
+#[test]
+fn pixels_are_collected_in_a_file_that_is_one_of_rows() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("hard.csv");
+    let mut person = Person::opens("seed", 160, 24);
+    let append = format!("append {}", path.to_str().unwrap());
+    person.commands(&append).shows("has 1 row now");
+    person
+        .commands("cursor 0 0")
+        .commands(&append)
+        .shows("has 2 rows now");
+    let text = fs::read_to_string(&path).unwrap();
+    let rows = [
+        HEADER,
+        "20,20,0,0,0,1,20,20,20,10,secant,10,30",
+        "0,0,0,0,0,1,20,20,20,10,miss,,",
+    ];
+    assert_eq!(text.lines().collect::<Vec<_>>(), rows);
+    fs::write(&path, "x,y\n1,2").unwrap();
+    person.commands(&append).shows("its first line is not");
+    assert_eq!(fs::read_to_string(&path).unwrap(), "x,y\n1,2");
 }
 
 #[test]

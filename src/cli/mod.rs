@@ -4,6 +4,7 @@ mod bench;
 mod explore;
 mod grade;
 mod place;
+mod plan;
 mod print;
 mod progress;
 mod scenes;
@@ -35,6 +36,7 @@ struct Arguments {
 enum Command {
     Bench(bench::Bench),
     Grade(grade::Grade),
+    Plan(plan::Plan),
     Print(print::Print),
     Scenes(scenes::Scenes),
     Solve(solve::Solve),
@@ -50,6 +52,7 @@ pub fn main() -> ExitCode {
         None => explore::run(&arguments.explore),
         Some(Command::Bench(arguments)) => bench::run(&arguments),
         Some(Command::Grade(arguments)) => grade::run(&arguments),
+        Some(Command::Plan(arguments)) => plan::run(&arguments),
         Some(Command::Print(arguments)) => print::run(&arguments),
         Some(Command::Scenes(arguments)) => scenes::run(&arguments),
         Some(Command::Solve(arguments)) => solve::run(&arguments),

@@ -199,13 +199,20 @@ fn room() -> (u32, u32) {
 
 /// The size of the picture: as asked, else the scene's own, else what fills the room.
 fn fit_as_asked(scene: &Scene, style: Style, arguments: &Print) -> (Size, PixelShape) {
-    let (cols, rows) = room();
-    let (own, shape) = fit(scene, style, cols, rows, arguments.aspect);
-    match arguments.size {
-        Some(asked) if asked != own => {
-            let aspect = style.pixel_aspect(arguments.aspect);
-            (asked, PixelShape::Aspect(aspect))
-        }
+    fit_in(scene, style, room(), arguments.size, arguments.aspect)
+}
+
+/// The size of a picture in a room of so many columns and rows, if no other is asked for.
+pub(super) fn fit_in(
+    scene: &Scene,
+    style: Style,
+    (cols, rows): (u32, u32),
+    asked: Option<Size>,
+    aspect: f64,
+) -> (Size, PixelShape) {
+    let (own, shape) = fit(scene, style, cols, rows, aspect);
+    match asked {
+        Some(asked) if asked != own => (asked, PixelShape::Aspect(style.pixel_aspect(aspect))),
         _ => (own, shape),
     }
 }

@@ -220,6 +220,8 @@ actions! {
     PanelCompare "panel-compare" ["6"] Steps;
     /// panel: error against run time for this picture
     PanelError "panel-error" ["7"] Steps;
+    /// panel: what this frame needed, what was left out, and why
+    PanelPlan "panel-plan" ["8"] Steps;
     /// open the steps; go to the next one, or reveal its answer
     NextStep "next-step" ["enter", "."] Steps;
     /// previous step
@@ -250,6 +252,8 @@ actions! {
     TurnOn "turn-on" ["\\"] Laboratory;
     /// turn the dial back
     TurnBack "turn-back" ["|"] Laboratory;
+    /// copy this pixel as a row for `rayscope grade`; again: as a test case in C, in Rust
+    CopyCase "copy-case" ["&"] Laboratory;
 
     /// open the tour; go to its next page
     TourForward "tour-forward" ["f"] Tour;

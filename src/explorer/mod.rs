@@ -7,6 +7,7 @@
 mod act;
 pub mod action;
 mod arrival;
+mod casing;
 mod command;
 mod dialing;
 mod document;
@@ -131,6 +132,8 @@ pub struct Explorer {
     measuring: Measuring,
     dialing: Dialing,
     ended: Option<u8>,
+    /// The bytes of the last frame, and of the largest one.
+    sent: Option<[u64; 2]>,
 }
 
 /// What the explorer can't do itself.
@@ -181,6 +184,7 @@ impl Explorer {
             measuring: Measuring::default(),
             dialing: Dialing::default(),
             ended: None,
+            sent: None,
         }
     }
 
@@ -222,6 +226,13 @@ impl Explorer {
     /// Shows a sentence until the next key.
     pub fn tell(&mut self, sentence: &str) {
         self.say(sentence);
+    }
+
+    /// Notes how many bytes a frame took, for the panel that tells.
+    pub fn note_sent(&mut self, bytes: usize) {
+        let bytes = bytes as u64;
+        let most = self.sent.map_or(0, |[_, most]| most);
+        self.sent = Some([bytes, most.max(bytes)]);
     }
 
     /// How the screen is drawn now.
@@ -280,7 +291,7 @@ impl Explorer {
 }
 
 /// A step that suits what the camera sees: a power of two, so that sums of steps stay exact.
-fn usual_step(scene: &Scene) -> f32 {
+pub fn usual_step(scene: &Scene) -> f32 {
     let step = motion::window(&scene.camera) / 32.0;
     let exponent = (step.log2().round()).clamp(-126.0, 120.0) as i32;
     2.0_f32.powi(exponent)

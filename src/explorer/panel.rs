@@ -20,6 +20,8 @@ pub enum Panel {
     Compare,
     /// Error against run time for this picture.
     Error,
+    /// What the frame needed, and what was left out.
+    Plan,
     /// A dial on the scene, and what the method gets wrong.
     Dial,
 }
@@ -30,7 +32,7 @@ const LEAST: (u16, u16) = (46, 21);
 impl Panel {
     /// All panels, in the order of their keys, which is also the order in which they fill what room
     /// there is.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Quadratic,
         Self::Steps,
         Self::Slice,
@@ -38,6 +40,7 @@ impl Panel {
         Self::Bits,
         Self::Compare,
         Self::Error,
+        Self::Plan,
         Self::Dial,
     ];
 
@@ -51,6 +54,7 @@ impl Panel {
             Self::Bits => "bits",
             Self::Compare => "compare",
             Self::Error => "error",
+            Self::Plan => "plan",
             Self::Dial => "dial",
         }
     }

@@ -10,6 +10,7 @@ use super::panel::Panel;
 use super::stepping::Prediction;
 use super::theme::Theme;
 use crate::explain::{self, Line, Reading, StepLook, Subject};
+use crate::render;
 
 impl Explorer {
     /// All panels that have room.
@@ -31,6 +32,7 @@ impl Explorer {
             Panel::Bits => self.bits_panel(room),
             Panel::Compare => self.compare_panel(reading, room),
             Panel::Error => self.error_panel(room),
+            Panel::Plan => self.plan_panel(room),
             Panel::Dial => (
                 format!("dial: {}", self.dialing.dial.name),
                 self.dial_lines(room.width.into(), room.height.into()),
@@ -65,7 +67,7 @@ impl Explorer {
             Panel::Error if self.measuring.is_running() => "% stop".into(),
             Panel::Error => "% measure".into(),
             Panel::Dial => "\\ turn on  | back  9 next dial".into(),
-            Panel::Quadratic => String::new(),
+            Panel::Quadratic | Panel::Plan => String::new(),
         }
     }
 
@@ -167,6 +169,29 @@ impl Explorer {
             lines.extend(chapters.flat_map(|c| explain::work(c, width, rows, glyphs)));
         }
         (title, lines)
+    }
+
+    /// What the picture on the screen needed, of whatever frame it is.
+    fn plan_panel(&self, room: Rect) -> (String, Vec<Line>) {
+        let plan = self.picture.plan();
+        let title = format!("plan: {} {}", plan.method(), plan.view().name());
+        let mut lines = plan.lines();
+        lines.extend(self.picture.plan_of_cells());
+        lines.push(render::Line::new(
+            "cursor's ray",
+            self.scene().bodies.len() as u64,
+            0,
+            "asked about every sphere for the panel; while the cursor moves nothing else is asked",
+        ));
+        if let Some([sent, all]) = self.sent {
+            lines.push(render::Line::new(
+                "bytes, last frame",
+                sent,
+                all.saturating_sub(sent),
+                "cells that the terminal shows already are not sent; left out is what is spared against the largest frame so far",
+            ));
+        }
+        (title, explain::plan_panel(&lines, room.width.into()))
     }
 
     /// One step as large as the screen allows; its answer hidden until the key.

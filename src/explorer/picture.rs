@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use super::{Explorer, Options, arrival, layout};
 use crate::explain::{Drawn, Glyphs, Reading, Step, derivation};
 use crate::method::Method;
-use crate::render::{Frame, Image, Look, View, fit};
+use crate::render::{Frame, Image, Line, Look, Plan, View, fit};
 use crate::scene::{PixelShape, Rays, Scene, Size};
 
 /// The picture on the screen, and what it was made from.
@@ -23,6 +23,8 @@ pub(super) struct Picture {
     pub(super) steps: Vec<Step>,
     /// Which of its results differ from those of the reading before.
     pub(super) changed: Vec<bool>,
+    /// Whether the last frame needed nothing of the picture.
+    pub(super) rests: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,7 +73,8 @@ impl Explorer {
                 ascii_only: glyphs == Glyphs::Ascii,
             },
         };
-        if self.picture.key != Some(key) {
+        self.picture.rests = self.picture.key == Some(key);
+        if !self.picture.rests {
             self.scale_cursor(size);
             let scene = self.document.scene();
             let picture = &mut self.picture;
@@ -157,7 +160,22 @@ impl Picture {
             reading_key: None,
             steps: Vec::new(),
             changed: Vec::new(),
+            rests: false,
         }
+    }
+
+    /// What the last frame needed.
+    pub(super) fn plan(&self) -> Plan {
+        if self.rests {
+            self.frame.plan().at_rest()
+        } else {
+            self.frame.plan().clone()
+        }
+    }
+
+    /// The part of the plan that is about cells.
+    pub(super) fn plan_of_cells(&self) -> [Line; 2] {
+        self.image.plan(self.rests)
     }
 
     /// Takes nothing of what is there for the picture of the scene that comes now.

@@ -13,7 +13,7 @@ mod haines;
 mod kahan;
 mod number;
 mod q_form;
-mod simd;
+pub(crate) mod simd;
 mod surd;
 mod tape;
 mod textbook;

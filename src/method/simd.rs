@@ -4,13 +4,13 @@
 //! and a sum unasked, and `kahan`, which asks, gets the same fused operation either way. This is the one place of the crate that needs `unsafe`.
 
 /// A loop over arrays that is worth compiling for wider vectors.
-pub(super) trait Kernel {
+pub trait Kernel {
     /// Runs it; `#[inline(always)]`, and so must be all that it calls.
     fn run(self);
 }
 
 /// Runs the kernel, with AVX2 and FMA where the processor has it.
-pub(super) fn dispatch(kernel: impl Kernel) {
+pub fn dispatch(kernel: impl Kernel) {
     #[cfg(target_arch = "x86_64")]
     if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
         #[expect(

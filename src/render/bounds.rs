@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use glam::DVec3;
 
-use super::cover::Bounds;
+use super::cover::{Bounds, Spans};
 use crate::geometry::Sphere;
 use crate::scene::{Rays, Size};
 
@@ -89,6 +89,26 @@ impl Eye {
             top: rows.start as i16,
             bottom: rows.end as i16 - 1,
         }
+    }
+
+    /// The columns of each row of that window, where they can be told.
+    pub(super) fn spans(&self, sphere: &Sphere, reach: f64) -> Option<Spans> {
+        let o = sphere.center.as_dvec3() - self.origin;
+        let distance = o.length() + self.spread;
+        let radius = f64::from(sphere.radius);
+        if !(self.ordinary && distance <= FARTHEST && radius <= FARTHEST) {
+            return None;
+        }
+        let radius = self.inflated(radius, reach, distance);
+        let center = self.axes.map(|axis| o.dot(axis));
+        let size = [self.size.width, self.size.height].map(f64::from);
+        let spans = Spans::new(center, radius, self.perspective)
+            .of_lines()
+            .in_pixels(
+                self.step.map(|step| 1.0 / step),
+                size.map(|n| (n - 1.0) / 2.0),
+            );
+        Some(spans)
     }
 
     /// Whether a line may meet `sphere` behind the eye.

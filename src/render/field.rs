@@ -1,14 +1,20 @@
 //! The rays of a picture, in arrays, kept for as long as the camera does not move.
 
+use std::iter::repeat_n;
+use std::ops::Range;
+
 use glam::Vec3;
 
 use super::cover::Bounds;
-use super::lanes::{LANES, Lanes, Real, dot};
+use super::lanes::{LANES, Lanes, Real, SINGLES, dot};
 use crate::geometry::Ray;
 use crate::scene::{Rays, Size};
 
 /// Columns and rows of a tile; a multiple of the lanes.
 pub(super) const TILE: usize = 8;
+
+/// A direction that is up to 2²⁰ times as long as that at the centre, which has length 1.
+const GREATEST_A: f64 = (1_u64 << 40) as f64;
 
 /// The rays of all pixels: what they share once, what varies as three arrays.
 ///
@@ -26,6 +32,12 @@ pub(super) struct Field {
     varying: [Vec<f32>; 3],
     /// A = d·d of each ray (perspective) or of all (orthographic).
     a: Vec<f64>,
+    /// The same in binary32.
+    a_single: Vec<f32>,
+    /// Whether no A is so large or small that products of it leave the range of binary32.
+    ordinary: bool,
+    /// The components of what varies that do not: whether o·d is the same for all rays.
+    constant_b: bool,
 }
 
 impl Default for Field {
@@ -38,6 +50,9 @@ impl Default for Field {
             shared: Vec3::ZERO,
             varying: Default::default(),
             a: Vec::new(),
+            a_single: Vec::new(),
+            ordinary: false,
+            constant_b: false,
         }
     }
 }
@@ -60,13 +75,27 @@ impl Field {
         };
         self.varying.iter_mut().for_each(Vec::clear);
         self.a.clear();
+        self.a_single.clear();
         for y in 0..rays.size.height {
             for x in 0..self.stride as u32 {
                 let ray = rays.ray(x, y);
                 self.push(&ray);
             }
         }
+        let ordinary = 1.0 / GREATEST_A..GREATEST_A;
+        self.ordinary = self.a.iter().all(|a| ordinary.contains(a));
+        self.constant_b = !self.perspective && self.b_is_constant();
         true
+    }
+
+    /// Whether, of parallel rays, the components of the origin that vary meet a zero of the direction:
+    /// then b = o·d comes out with the same bits at every pixel.
+    fn b_is_constant(&self) -> bool {
+        let direction = self.shared.to_array();
+        direction.iter().zip(&self.varying).all(|(&d, origins)| {
+            let first = origins.first();
+            d == 0.0 || origins.iter().all(|o| Some(o) == first)
+        })
     }
 
     fn push(&mut self, ray: &Ray) {
@@ -80,7 +109,11 @@ impl Field {
         }
         let d = ray.direction.to_array().map(f64::from);
         if self.perspective || self.a.is_empty() {
-            self.a.push(dot(d, d));
+            let a = dot(d, d);
+            self.a.push(a);
+            // Of parallel rays one A serves all, and all lanes.
+            let lanes = if self.perspective { 1 } else { SINGLES };
+            self.a_single.extend(repeat_n(a as f32, lanes));
         }
     }
 
@@ -112,6 +145,16 @@ impl Field {
     /// The place of pixel (x, y).
     pub(super) const fn place(&self, x: u32, y: u32) -> usize {
         y as usize * self.stride + x as usize
+    }
+
+    /// The places of the columns from the first to the last in row `y`.
+    pub(super) const fn run(&self, y: i16, [first, last]: [i16; 2]) -> Range<usize> {
+        let row = y as usize * self.stride;
+        if first > last {
+            row..row
+        } else {
+            row + first as usize..row + last as usize + 1
+        }
     }
 
     /// The places of the pixels within `bounds`, row by row.
@@ -187,4 +230,40 @@ impl Field {
             Lanes::of(self.a[0])
         }
     }
+
+    /// What varies, from a place on, in binary32.
+    #[inline(always)]
+    pub(super) fn varying_singles(&self, place: usize) -> [&[f32; SINGLES]; 3] {
+        let [x, y, z] = &self.varying;
+        [run_of(x, place), run_of(y, place), run_of(z, place)]
+    }
+
+    /// What all rays share, as it is.
+    pub(super) const fn shared_singles(&self) -> [f32; 3] {
+        self.shared.to_array()
+    }
+
+    /// A = d·d, from a place on, rounded to binary32.
+    #[inline(always)]
+    pub(super) fn a_singles(&self, place: usize) -> &[f32; SINGLES] {
+        run_of(&self.a_single, if self.perspective { place } else { 0 })
+    }
+
+    /// Whether products with any A stay within the range of binary32, if the other factors do by far.
+    pub(super) const fn ordinary(&self) -> bool {
+        self.ordinary
+    }
+
+    /// Whether b = o·d of a sphere has the same bits at every pixel.
+    pub(super) const fn constant_b(&self) -> bool {
+        self.constant_b
+    }
+}
+
+/// The run of numbers that begins at a place.
+#[inline(always)]
+fn run_of(numbers: &[f32], place: usize) -> &[f32; SINGLES] {
+    numbers[place..]
+        .first_chunk()
+        .expect("a run lies within the picture")
 }

@@ -2,114 +2,112 @@
 //! spheres that lost.
 
 use super::cover::Bounds;
+use super::field::Field;
 use super::lanes::{LANES, Lanes, Real, sub};
-use super::layer::{Contact, Layer};
-use super::nearest::{ASK, INSIDE, NOBODY, Nearest, Question, number};
+use super::layer::{ASK, Contact, Layer, NOBODY, number};
 use super::plan::Counts;
 use super::shade::{Hit, Spot};
 use crate::geometry::Sphere;
-use crate::method::{Method, Place};
-use crate::scene::Light;
+use crate::method::simd::Kernel;
+use crate::method::{Method, Place, exact};
+use crate::scene::{Body, Light};
 
-/// Names the sphere at each pixel and says how the line meets it; with `roots` rounds the root, too.
-pub(super) fn identify(
-    question: &Question,
-    nearest: &Nearest,
+/// Rounds the roots that are seen within `part`; where the method was asked they are.
+pub(super) fn round_roots(
+    field: &Field,
+    bodies: &[Body],
     seen: &mut Layer,
     part: Bounds,
-    roots: bool,
     counts: &mut Counts,
 ) {
-    for place in question.field.runs_within(part) {
-        let entries = nearest.bodies(place);
-        let to_ask = |entry| entry != NOBODY && (roots || entry & ASK != 0);
-        let body = &mut seen.body[place..place + LANES];
-        let contact = &mut seen.contact[place..place + LANES];
-        let t = &mut seen.t[place..place + LANES];
-        for l in 0..LANES {
-            body[l] = number(entries[l]).unwrap_or(NOBODY);
-            contact[l] = known_contact(entries[l]);
-            t[l] = if entries[l] == NOBODY {
-                f32::INFINITY
-            } else {
-                nearest.t(place + l)
-            };
-        }
-        if !entries.into_iter().any(to_ask) {
+    for place in field.places_within(part) {
+        let entry = seen.body[place];
+        let Some(number) = number(entry).filter(|_| entry & ASK == 0) else {
             continue;
-        }
-        for l in (0..LANES).filter(|&l| to_ask(entries[l])) {
-            let sphere = &question.bodies[body[l] as usize].sphere;
-            let answer = Method::Exact.solve(&question.field.ray(place + l), sphere);
-            counts.rounded += 1;
-            t[l] = answer.visible().unwrap_or(f32::INFINITY);
-            contact[l] = Contact::of(&answer);
+        };
+        let sphere = &bodies[number as usize].sphere;
+        let (answer, stages) = exact::solve_staged(&field.ray(place), sphere);
+        counts.note_rounded(stages.last());
+        seen.t[place] = answer.visible().unwrap_or(f32::INFINITY);
+    }
+}
+
+/// Works out the brightness of each pixel within `part`; 0 where nothing is seen.
+pub(super) struct Shading<'a> {
+    pub field: &'a Field,
+    pub bodies: &'a [Body],
+    pub seen: &'a Layer,
+    pub light: Option<Light>,
+    pub part: Bounds,
+    pub value: &'a mut [f32],
+    pub counts: &'a mut Counts,
+}
+
+impl Kernel for Shading<'_> {
+    #[inline(always)]
+    fn run(mut self) {
+        let position = self
+            .light
+            .map(|light| light.position.to_array().map(f64::from));
+        for place in self.field.runs_within(self.part) {
+            self.shade(place, position);
         }
     }
 }
 
-/// How the line meets a sphere about which no method had to be asked.
-const fn known_contact(entry: u32) -> Contact {
-    if entry == NOBODY {
-        Contact::Miss
-    } else if entry & INSIDE == 0 {
-        Contact::Secant
-    } else {
-        Contact::Inside
-    }
-}
-
-/// The brightness of each pixel within `part`; 0 where nothing is seen.
-pub(super) fn shade(
-    question: &Question,
-    seen: &Layer,
-    light: Option<Light>,
-    part: Bounds,
-    value: &mut [f32],
-    counts: &mut Counts,
-) {
-    let position = light.map(|light| light.position.to_array().map(f64::from));
-    for place in question.field.runs_within(part) {
-        let bodies: &[u32] = &seen.body[place..place + LANES];
-        let value = &mut value[place..place + LANES];
-        let visible = bodies.iter().filter(|&&b| b != NOBODY).count();
+impl Shading<'_> {
+    #[inline(always)]
+    fn shade(&mut self, place: usize, position: Option<[f64; 3]>) {
+        let entries: &[u32] = &self.seen.body[place..place + LANES];
+        let value = &mut self.value[place..place + LANES];
+        let visible: u32 = entries.iter().map(|&e| u32::from(e != NOBODY)).sum();
         if visible == 0 {
             value.fill(0.0);
-            continue;
+            return;
         }
-        counts.shaded += visible as u64;
-        let lanes = spot(question, bodies, place).brightness(position);
+        self.counts.shaded += u64::from(visible);
+        let lanes = spot(self.field, self.bodies, entries, place).brightness(position);
         for l in 0..LANES {
-            value[l] = if bodies[l] == NOBODY {
+            value[l] = if entries[l] == NOBODY {
                 0.0
             } else {
                 lanes.0[l] as f32
             };
         }
         // The lanes take every root for the near one; without a light that does not matter.
-        if light.is_some() {
-            for l in (0..LANES).filter(|l| seen.contact[place + l] == Contact::Inside) {
-                let hit = Hit {
-                    method: Method::Exact,
-                    ray: &question.field.ray(place + l),
-                    sphere: &question.bodies[bodies[l] as usize].sphere,
-                    t: seen.t[place + l],
-                    place: Place::Inside,
-                };
-                value[l] = hit.brightness(light);
+        if self.light.is_some() {
+            self.light_from_inside(place);
+        }
+    }
+
+    #[inline(never)]
+    fn light_from_inside(&mut self, place: usize) {
+        for place in place..place + LANES {
+            if self.seen.contact(place) != Contact::Inside {
+                continue;
             }
+            let Some(number) = self.seen.seen(place) else {
+                continue;
+            };
+            let hit = Hit {
+                method: Method::Exact,
+                ray: &self.field.ray(place),
+                sphere: &self.bodies[number as usize].sphere,
+                t: self.seen.t[place],
+                place: Place::Inside,
+            };
+            self.value[place] = hit.brightness(self.light);
         }
     }
 }
 
 /// The rays of a run of pixels and the spheres that they hit; any sphere where they hit none.
 #[inline(always)]
-fn spot(question: &Question, bodies: &[u32], place: usize) -> Spot<Lanes> {
+fn spot(field: &Field, bodies: &[Body], entries: &[u32], place: usize) -> Spot<Lanes> {
     let mut spheres = [[0.0; LANES]; 4];
     for l in 0..LANES {
-        let sphere = question
-            .bodies
-            .get(bodies[l] as usize)
+        let sphere = number(entries[l])
+            .and_then(|number| bodies.get(number as usize))
             .map_or(NONE, |body| body.sphere);
         let [x, y, z] = sphere.center.to_array();
         for (lanes, v) in spheres.iter_mut().zip([x, y, z, sphere.radius]) {
@@ -118,9 +116,9 @@ fn spot(question: &Question, bodies: &[u32], place: usize) -> Spot<Lanes> {
     }
     let [x, y, z, r] = spheres.map(Lanes);
     let center = [x, y, z];
-    let varying = question.field.varying(place);
-    let shared = question.field.shared().map(Lanes::of);
-    let (origin, d) = if question.field.perspective() {
+    let varying = field.varying(place);
+    let shared = field.shared().map(Lanes::of);
+    let (origin, d) = if field.perspective() {
         (shared, varying)
     } else {
         (varying, shared)

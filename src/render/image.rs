@@ -1,9 +1,13 @@
 //! The image: cells of a character and two colours, drawn from a frame in a style.
 
+use std::ops::Range;
+
+use super::cover::Bounds;
 use super::ink::{Ink, NO_ANSWER, ink};
+use super::plan::Line;
 use super::ramp::Ramps;
 use super::{ColorDepth, Contact, Frame, Style, View};
-use crate::scene::{Rgb, Scene};
+use crate::scene::{Rgb, Scene, Size};
 
 /// How an image is to look.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -59,6 +63,10 @@ pub struct Image {
     /// `cols` × `rows` cells.
     pub cells: Vec<Cell>,
     ramps: Ramps,
+    /// The edition of the frame that the cells show, and how.
+    shown: Option<(u64, Look)>,
+    drawn: u64,
+    changed: u64,
 }
 
 impl Image {
@@ -67,23 +75,74 @@ impl Image {
         Self::default()
     }
 
-    /// Draws `frame`, which was rendered from `scene`, in the place of what was here.
+    /// Draws `frame`, which was rendered from `scene`, in the place of what was here. Of the frame
+    /// before, drawn in the same look, the cells are kept in which nothing can have changed.
     pub fn draw(&mut self, frame: &Frame, scene: &Scene, look: Look) {
         let (cols, rows) = look.style.cells_of(frame.size());
         self.ramps.set_depth(look.depth);
+        let shown = self.shown.filter(|&(_, shown)| shown == look);
+        let parts = shown.and_then(|(edition, _)| frame.parts_changed_since(edition));
+        self.shown = Some((frame.edition(), look));
+        (self.drawn, self.changed) = (0, 0);
+        if let Some(parts) = parts {
+            for part in parts {
+                let (across, down) = cells_within(part.widened(frame.size()), look.style);
+                self.draw_part(frame, scene, look, across, down);
+            }
+            return;
+        }
+        (self.cols, self.rows) = (cols, rows);
+        self.cells
+            .resize(cols as usize * rows as usize, Cell::BLANK);
+        self.draw_part(frame, scene, look, 0..cols, 0..rows);
+    }
+
+    fn draw_part(
+        &mut self,
+        frame: &Frame,
+        scene: &Scene,
+        look: Look,
+        across: Range<u32>,
+        down: Range<u32>,
+    ) {
         let mut painter = Painter {
             frame,
             scene,
             look,
             ramps: &mut self.ramps,
         };
-        (self.cols, self.rows) = (cols, rows);
-        self.cells.clear();
-        self.cells.extend(
-            (0..rows)
-                .flat_map(|row| (0..cols).map(move |col| (col, row)))
-                .map(|(col, row)| painter.cell(col, row)),
-        );
+        for row in down {
+            let start = row as usize * self.cols as usize;
+            for col in across.clone() {
+                let cell = painter.cell(col, row);
+                let place = &mut self.cells[start + col as usize];
+                self.changed += u64::from(*place != cell);
+                self.drawn += 1;
+                *place = cell;
+            }
+        }
+    }
+
+    /// The part of the plan that is about cells: how many were drawn for the last frame, and how many
+    /// of them came out other than they were; none in a frame that left the picture as it was.
+    pub fn plan(&self, rests: bool) -> [Line; 2] {
+        let all = self.cells.len() as u64;
+        let [drawn, changed] =
+            [self.drawn, self.changed].map(|n| if rests { 0 } else { n.min(all) });
+        [
+            Line::new(
+                "cells drawn",
+                drawn,
+                all - drawn,
+                "a cell shows its own pixels and the edges to those beside them",
+            ),
+            Line::new(
+                "cells changed",
+                changed,
+                all - changed,
+                "what looks the same is not sent",
+            ),
+        ]
     }
 
     /// The cell in this column and row, if the image has it.
@@ -98,6 +157,17 @@ impl Image {
         // An image without columns has no cells, so the size of a chunk is never asked in vain.
         self.cells.chunks(self.cols.max(1) as usize)
     }
+}
+
+/// The columns and rows of cells that hold the pixels of `part`.
+fn cells_within(part: Bounds, style: Style) -> (Range<u32>, Range<u32>) {
+    if part.is_empty() {
+        return (0..0, 0..0);
+    }
+    let (left, top) = style.cell_of_pixel(part.left as u32, part.top as u32);
+    let up_to_its_end = Size::new(part.right as u32 + 1, part.bottom as u32 + 1);
+    let (right, bottom) = style.cells_of(up_to_its_end);
+    (left..right, top..bottom)
 }
 
 struct Painter<'a> {

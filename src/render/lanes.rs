@@ -1,12 +1,15 @@
-//! Several binary64 side by side, so that one formula runs for several pixels or spheres at once.
+//! Several numbers side by side, so that one formula runs for several pixels or spheres at once.
 //!
 //! An operation is a loop over a small array, which compilers turn into vector instructions. Each
 //! lane is rounded as a single number would be, so a formula gives the same bits either way.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// How many numbers go side by side.
+/// How many binary64 go side by side.
 pub(super) const LANES: usize = 4;
+
+/// How many binary32 go side by side.
+pub(super) const SINGLES: usize = 8;
 
 /// What a formula asks of one number or of several in lanes.
 pub(super) trait Real:
@@ -17,7 +20,7 @@ pub(super) trait Real:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// The same number in every lane.
+    /// The same number, rounded, in every lane.
     fn of(value: f64) -> Self;
     /// The square root, rounded once.
     fn sqrt(self) -> Self;
@@ -31,32 +34,47 @@ pub(super) trait Real:
     fn where_negative(self, sign: Self, other: Self) -> Self;
 }
 
-impl Real for f64 {
-    #[inline(always)]
-    fn of(value: f64) -> Self {
-        value
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        self.sqrt()
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        self.abs()
-    }
-    #[inline(always)]
-    fn at_least(self, least: f64) -> Self {
-        if self > least { self } else { least }
-    }
-    #[inline(always)]
-    fn at_most(self, most: f64) -> Self {
-        if self < most { self } else { most }
-    }
-    #[inline(always)]
-    fn where_negative(self, sign: Self, other: Self) -> Self {
-        if sign < 0.0 { self } else { other }
-    }
+macro_rules! number {
+    ($number:ty) => {
+        impl Real for $number {
+            #[inline(always)]
+            fn of(value: f64) -> Self {
+                value as Self
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                self.sqrt()
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                self.abs()
+            }
+            #[inline(always)]
+            fn at_least(self, least: f64) -> Self {
+                if self > least as Self {
+                    self
+                } else {
+                    least as Self
+                }
+            }
+            #[inline(always)]
+            fn at_most(self, most: f64) -> Self {
+                if self < most as Self {
+                    self
+                } else {
+                    most as Self
+                }
+            }
+            #[inline(always)]
+            fn where_negative(self, sign: Self, other: Self) -> Self {
+                if sign < 0.0 { self } else { other }
+            }
+        }
+    };
 }
+
+number!(f32);
+number!(f64);
 
 /// Numbers side by side.
 #[derive(Debug, Clone, Copy)]

@@ -1,6 +1,7 @@
 //! The answers of one method for the pixels of a picture: which sphere is seen, and at which root.
 
-use super::nearest::NOBODY;
+use std::ops::Range;
+
 use crate::method::{Class, Place, Solution};
 
 /// What the line of a pixel does, of all spheres together: that of the nearest visible hit, else
@@ -56,27 +57,66 @@ impl Contact {
     }
 }
 
+/// No sphere: greater than the number of any.
+pub(super) const NOBODY: u32 = u32::MAX;
+
+/// Marks the number of a sphere about which the method itself was asked at this pixel: how its line
+/// meets it is noted, and t is the method's own.
+pub(super) const ASK: u32 = 1 << 31;
+
+/// Marks the number of a sphere that holds the eye.
+pub(super) const INSIDE: u32 = 1 << 30;
+
+/// The number of the sphere that an entry names.
+pub(super) const fn number(entry: u32) -> Option<u32> {
+    if entry == NOBODY {
+        None
+    } else {
+        Some(entry & !(ASK | INSIDE))
+    }
+}
+
 /// The spheres seen at the pixels, and at which roots.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Layer {
+    /// The visible root; ∞ where there is none.
     pub(super) t: Vec<f32>,
+    /// The number of the sphere, with [`ASK`] or [`INSIDE`], or [`NOBODY`].
     pub(super) body: Vec<u32>,
+    /// How the line meets it, where that does not follow from the entry: see [`Layer::contact`].
     pub(super) contact: Vec<Contact>,
 }
 
 impl Layer {
-    /// Nothing is known of a pixel.
-    pub(super) fn clear(&mut self, i: usize) {
-        self.t[i] = f32::INFINITY;
-        self.body[i] = NOBODY;
-        self.contact[i] = Contact::Miss;
+    /// Nothing is known of so many pixels.
+    pub(super) fn clear_all(&mut self, pixels: usize) {
+        refill(&mut self.t, pixels, f32::INFINITY);
+        refill(&mut self.body, pixels, NOBODY);
+        refill(&mut self.contact, pixels, Contact::Miss);
     }
 
-    /// Makes room for so many pixels; what they held is of no use.
-    pub(super) fn resize(&mut self, pixels: usize) {
-        self.t.resize(pixels, f32::INFINITY);
-        self.body.resize(pixels, NOBODY);
-        self.contact.resize(pixels, Contact::Miss);
+    /// Nothing is known of these pixels.
+    pub(super) fn clear_run(&mut self, run: Range<usize>) {
+        self.t[run.clone()].fill(f32::INFINITY);
+        self.body[run.clone()].fill(NOBODY);
+        self.contact[run].fill(Contact::Miss);
+    }
+
+    /// Which sphere is seen at a pixel.
+    pub(super) fn seen(&self, i: usize) -> Option<u32> {
+        number(self.body[i])
+    }
+
+    /// What the line of a pixel does.
+    pub(super) fn contact(&self, i: usize) -> Contact {
+        let entry = self.body[i];
+        if entry == NOBODY || entry & ASK != 0 {
+            self.contact[i]
+        } else if entry & INSIDE != 0 {
+            Contact::Inside
+        } else {
+            Contact::Secant
+        }
     }
 
     /// Takes note of one answer; whether it is of the sphere that is seen so far. What is behind the
@@ -89,14 +129,15 @@ impl Layer {
         also_behind: bool,
     ) -> bool {
         let contact = Contact::of(answer);
+        let seen = self.seen(i).unwrap_or(NOBODY);
         match answer.visible() {
-            Some(t) if (t, number) < (self.t[i], self.body[i]) => {
+            Some(t) if (t, number) < (self.t[i], seen) => {
                 self.t[i] = t;
-                self.body[i] = number;
+                self.body[i] = number | ASK;
                 self.contact[i] = contact;
                 true
             }
-            None if self.body[i] == NOBODY && (also_behind || !contact.is_behind()) => {
+            None if seen == NOBODY && (also_behind || !contact.is_behind()) => {
                 self.contact[i] = self.contact[i].max(contact);
                 false
             }

@@ -1,48 +1,76 @@
 //! The nearest hits of a picture by `exact`: only where a sphere can be seen, and by a certified
 //! test in binary64 that leaves the rest to the method itself.
 
-use std::array::from_fn;
+#![expect(
+    clippy::needless_bitwise_bool,
+    reason = "a comparison that may be skipped is a branch, and a loop with branches is not compiled to vectors"
+)]
 
-use super::cover::Bounds;
+use super::cover::{Bounds, Single, Spans};
 use super::field::{Field, TILE};
-use super::lanes::{LANES, Lanes, Real, dot, sub};
-use super::layer::refill;
+use super::lanes::{LANES, Lanes, Real, SINGLES, cross, dot, sub};
+use super::layer::{ASK, Contact, Layer, number, refill};
 use super::plan::Counts;
 use crate::geometry::Sphere;
 use crate::method::exact;
 use crate::scene::Body;
 
-/// No sphere: greater than the number of any.
-pub(super) const NOBODY: u32 = u32::MAX;
-
-/// Marks the number of a sphere about which the method itself was asked at this pixel.
-pub(super) const ASK: u32 = 1 << 31;
-
-/// Marks the number of a sphere that holds the eye.
-pub(super) const INSIDE: u32 = 1 << 30;
-
 /// The share by which two roots in the buffer must differ to tell which is less.
 ///
-/// A root there is off by less than 2⁻¹⁸ of itself: see [`Asked::new`].
-const SAME: f32 = 1.0 / (1 << 16) as f32;
+/// A root there is off by less than 2⁻¹³ of itself: see [`Asked::new`] and [`Single`].
+pub(super) const SAME: f32 = 1.0 / (1 << 12) as f32;
 
-/// After so many pixels of a tile changed its bound is worked out anew.
-const STALE: u32 = 24;
+/// After so many runs of a tile changed its bound is worked out anew.
+const STALE: u32 = 8;
+
+/// From this width on a sphere's columns are worked out row by row.
+const WORTH_SPANS: i16 = 16;
 
 /// What is asked: which of these spheres the rays hit.
 #[derive(Clone, Copy)]
 pub(super) struct Question<'a> {
     pub field: &'a Field,
     pub bodies: &'a [Body],
+    /// Whether spheres are told apart by a root; else by where the ray comes closest to the centre,
+    /// since no two of them have a point in common.
+    pub roots: bool,
 }
 
-/// For each pixel the nearest visible sphere so far, and about where it is hit.
+/// One sphere, and where to ask about it.
+#[derive(Clone, Copy)]
+pub(super) struct Candidate {
+    /// Its place in the list of bodies.
+    pub number: u32,
+    /// The pixels at which it may be seen.
+    pub bounds: Bounds,
+    /// Which columns of them in each row, if that is known.
+    pub spans: Option<Spans>,
+    /// No visible root is below this.
+    pub least: f32,
+    /// What the test in binary32 needs, if it serves.
+    pub single: Option<Single>,
+}
+
+impl Candidate {
+    /// Whether it is wide enough for the rows' own quadratics to pay.
+    pub(super) const fn is_wide(bounds: Bounds) -> bool {
+        bounds.right - bounds.left >= WORTH_SPANS
+    }
+
+    #[inline(always)]
+    fn columns(&self, y: i16) -> [i16; 2] {
+        match &self.spans {
+            Some(spans) => spans.at(y, self.bounds),
+            None => [self.bounds.left, self.bounds.right],
+        }
+    }
+}
+
+/// For each pixel the nearest visible sphere so far, and about where it is hit: a root to within 2⁻¹³
+/// of itself, or another point within the sphere if no two spheres meet.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Nearest {
-    /// The root, to within 2⁻¹⁸ of itself; ∞ where nothing is hit.
-    t: Vec<f32>,
-    /// Which sphere, perhaps with [`ASK`].
-    body: Vec<u32>,
+    pub(super) layer: Layer,
     tiles: Tiles,
 }
 
@@ -66,9 +94,8 @@ enum Way {
 }
 
 /// A sphere with what does not change from pixel to pixel.
-struct Asked<'a> {
+struct Asked {
     number: u32,
-    sphere: &'a Sphere,
     way: Way,
     center: [f64; 3],
     /// o = p0 − c, in perspective.
@@ -87,7 +114,7 @@ struct Asked<'a> {
 /// The sum is below 23u·A(o² + r²), and 2⁻⁴⁸ = 32u leaves room for the rounding of the bound.
 const DISCRIMINANT_ERROR: f64 = 1.0 / (1_u64 << 48) as f64;
 
-impl<'a> Asked<'a> {
+impl Asked {
     /// Chooses how to ask about a sphere, given the origin of all rays, or a depth that all rays
     /// have to go at least before they can meet it.
     ///
@@ -97,7 +124,7 @@ impl<'a> Asked<'a> {
     /// k = 2²⁰ where ρ < 2¹³. For rays that are parallel |b| = √A·z, where z is the depth of the
     /// centre, and o² + r² ≤ z² + 3r² at the pixels of its box; C ≥ 2⁻²⁶(o² + r²) makes sure that
     /// C, too, is good.
-    fn new(number: u32, sphere: &'a Sphere, field: &Field, least: f32) -> Self {
+    fn new(number: u32, sphere: &Sphere, field: &Field, least: f32) -> Self {
         let center = sphere.center.to_array().map(f64::from);
         let r = f64::from(sphere.radius);
         let r2 = r * r;
@@ -125,7 +152,6 @@ impl<'a> Asked<'a> {
         };
         Self {
             number,
-            sphere,
             way,
             center,
             o,
@@ -146,26 +172,19 @@ const NEAR_SURFACE: f64 = 1.0 / (1_u64 << 26) as f64;
 impl Nearest {
     /// Nothing is seen yet in a picture of the size of `field`.
     pub(super) fn clear(&mut self, field: &Field) {
-        refill(&mut self.t, field.places(), f32::INFINITY);
-        refill(&mut self.body, field.places(), NOBODY);
+        self.layer.clear_all(field.places());
         self.tiles.across = field.stride() / TILE;
         let tiles = self.tiles.across * (field.size().height as usize).div_ceil(TILE);
         refill(&mut self.tiles.far, tiles, f32::INFINITY);
         refill(&mut self.tiles.changed, tiles, 0);
     }
 
-    /// About where the sphere at a place is hit.
-    pub(super) fn t(&self, place: usize) -> f32 {
-        self.t[place]
-    }
-
     /// Forgets what was found within `part`.
     pub(super) fn reopen(&mut self, field: &Field, part: Bounds) {
         for y in part.top as usize..=part.bottom as usize {
             let row = y * field.stride();
-            let run = row + part.left as usize..=row + part.right as usize;
-            self.t[run.clone()].fill(f32::INFINITY);
-            self.body[run].fill(NOBODY);
+            self.layer
+                .clear_run(row + part.left as usize..row + part.right as usize + 1);
             let tiles = y / TILE * self.tiles.across;
             let run = tiles + part.left as usize / TILE..=tiles + part.right as usize / TILE;
             self.tiles.far[run].fill(f32::INFINITY);
@@ -174,16 +193,13 @@ impl Nearest {
 
     /// Forgets what was found for places beyond the right edge.
     pub(super) fn trim(&mut self, field: &Field) {
-        let width = field.size().width as usize;
-        for row in self.body.chunks_mut(field.stride().max(1)) {
-            row[width..].fill(NOBODY);
+        let (width, stride) = (field.size().width as usize, field.stride());
+        if width < stride {
+            for row in 0..field.size().height as usize {
+                self.layer
+                    .clear_run(row * stride + width..(row + 1) * stride);
+            }
         }
-    }
-
-    /// The entries of a run of places.
-    pub(super) fn bodies(&self, place: usize) -> [u32; LANES] {
-        let bodies = &self.body[place..place + LANES];
-        from_fn(|l| bodies[l])
     }
 
     /// Whether everything seen within `bounds` is nearer than `least`.
@@ -199,28 +215,118 @@ impl Nearest {
         })
     }
 
-    /// Asks about one sphere within `bounds`, where no visible root of it is below `least`.
-    pub(super) fn ask(
+    /// Asks about one sphere.
+    #[inline(always)]
+    pub(super) fn ask(&mut self, question: &Question, candidate: &Candidate, counts: &mut Counts) {
+        let perspective = question.field.perspective();
+        match (&candidate.single, perspective, question.roots) {
+            (Some(single), true, true) => {
+                self.ask_singles::<true, true>(question, candidate, single, counts);
+            }
+            (Some(single), false, true) => {
+                self.ask_singles::<false, true>(question, candidate, single, counts);
+            }
+            (Some(single), true, false) => {
+                self.ask_singles::<true, false>(question, candidate, single, counts);
+            }
+            (Some(single), false, false) => {
+                self.ask_singles::<false, false>(question, candidate, single, counts);
+            }
+            (None, ..) => self.ask_beyond_singles(question, candidate, counts),
+        }
+    }
+
+    /// Asks about a sphere that the test in binary32 does not serve: one that is near, or holds the
+    /// eye, or is far smaller than it is far.
+    #[cold]
+    #[inline(never)]
+    fn ask_beyond_singles(
         &mut self,
         question: &Question,
-        number: u32,
-        bounds: Bounds,
-        least: f32,
+        candidate: &Candidate,
         counts: &mut Counts,
     ) {
-        let Question { field, bodies } = *question;
-        let asked = Asked::new(number, &bodies[number as usize].sphere, field, least);
+        let Question { field, bodies, .. } = *question;
+        let sphere = &bodies[candidate.number as usize].sphere;
+        let asked = Asked::new(candidate.number, sphere, field, candidate.least);
         match (asked.way, field.perspective()) {
-            (Way::Alone, _) => self.ask_alone(question, &asked, bounds, least, counts),
+            (Way::Alone, _) => self.ask_alone(question, candidate, counts),
             (Way::Inside, _) => {
-                self.ask_runs::<true, true>(question, &asked, bounds, least, counts);
+                counts.around += 1;
+                self.ask_runs::<true, true>(question, &asked, candidate, counts);
             }
             (Way::Outside, true) => {
-                self.ask_runs::<true, false>(question, &asked, bounds, least, counts);
+                self.ask_runs::<true, false>(question, &asked, candidate, counts);
             }
             (Way::Outside, false) => {
-                self.ask_runs::<false, false>(question, &asked, bounds, least, counts);
+                self.ask_runs::<false, false>(question, &asked, candidate, counts);
             }
+        }
+    }
+
+    /// Makes a test of the runs of pixels that may see the sphere.
+    #[inline(always)]
+    fn test_runs<T: Test>(
+        &mut self,
+        test: &T,
+        field: &Field,
+        candidate: &Candidate,
+        counts: &mut Counts,
+    ) {
+        let stride = field.stride();
+        // Runs begin at the sphere's own left edge: a small one takes one run a row. A run that would
+        // leave the row begins earlier: asking twice, or beyond an edge, changes nothing.
+        let latest = stride - T::RUN;
+        for y in candidate.bounds.top..=candidate.bounds.bottom {
+            let [left, right] = candidate.columns(y);
+            if left > right {
+                continue;
+            }
+            counts.note_row(left, right);
+            let y = y as usize;
+            let tiles = y / TILE * self.tiles.across;
+            for x in (left as usize..=right as usize).step_by(T::RUN) {
+                let x = x.min(latest);
+                let [first, last] = [tiles + x / TILE, tiles + (x + T::RUN - 1) / TILE];
+                let far = self.tiles.far[first].max(self.tiles.far[last]);
+                if is_before(far, candidate.least) {
+                    counts.hidden_runs += 1;
+                    continue;
+                }
+                let changed = test.run(self, y * stride + x, counts);
+                self.note_change(first, changed);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn ask_singles<const PERSPECTIVE: bool, const ROOTS: bool>(
+        &mut self,
+        question: &Question,
+        candidate: &Candidate,
+        single: &Single,
+        counts: &mut Counts,
+    ) {
+        let (field, number) = (question.field, candidate.number);
+        if !PERSPECTIVE && field.constant_b() {
+            // Worked out for one pixel, it holds for all of them.
+            let [x, y, z] = field.varying_singles(0);
+            let o = sub([x[0], y[0], z[0]], single.origin);
+            let test = InSingles::<PERSPECTIVE, ROOTS, true> {
+                question,
+                number,
+                single,
+                b: dot(o, field.shared_singles()),
+            };
+            self.test_runs(&test, field, candidate, counts);
+        } else {
+            let test = InSingles::<PERSPECTIVE, ROOTS, false> {
+                question,
+                number,
+                single,
+                b: 0.0,
+            };
+            self.test_runs(&test, field, candidate, counts);
         }
     }
 
@@ -229,63 +335,224 @@ impl Nearest {
         &mut self,
         question: &Question,
         asked: &Asked,
-        bounds: Bounds,
-        least: f32,
+        candidate: &Candidate,
         counts: &mut Counts,
     ) {
-        let stride = question.field.stride();
-        // Runs begin at the sphere's own left edge: a small one takes one run a row. A run that would
-        // leave the row begins earlier: asking twice, or beyond an edge, changes nothing.
-        let latest = stride - LANES;
-        for y in bounds.top as usize..=bounds.bottom as usize {
-            let tiles = y / TILE * self.tiles.across;
-            for x in (bounds.left as usize..=bounds.right as usize).step_by(LANES) {
-                let x = x.min(latest);
-                let [first, last] = [x / TILE, (x + LANES - 1) / TILE].map(|column| tiles + column);
-                let far = self.tiles.far[first].max(self.tiles.far[last]);
-                if is_before(far, least) {
-                    counts.hidden_runs += 1;
-                    continue;
-                }
-                let changed =
-                    self.test::<PERSPECTIVE, INSIDE>(question, asked, y * stride + x, counts);
-                self.note_change(first, changed);
+        let test = InDoubles::<PERSPECTIVE, INSIDE> { question, asked };
+        self.test_runs(&test, question.field, candidate, counts);
+    }
+
+    /// Asks the method itself at the open places of a run; whether any of them now sees this sphere.
+    #[cold]
+    #[inline(never)]
+    fn settle<const N: usize>(
+        &mut self,
+        question: &Question,
+        number: u32,
+        place: usize,
+        open: [u32; N],
+        counts: &mut Counts,
+    ) -> bool {
+        let mut changed = false;
+        for l in (0..N).filter(|&l| open[l] != 0) {
+            changed |= self.ask_at(question, number, place + l, counts);
+        }
+        changed
+    }
+
+    fn ask_alone(&mut self, question: &Question, candidate: &Candidate, counts: &mut Counts) {
+        let test = Alone {
+            question,
+            number: candidate.number,
+        };
+        self.test_runs(&test, question.field, candidate, counts);
+    }
+
+    /// Asks the method itself at one place; whether this sphere is now what is seen there.
+    fn ask_at(
+        &mut self,
+        question: &Question,
+        asked: u32,
+        place: usize,
+        counts: &mut Counts,
+    ) -> bool {
+        let seen = number(self.layer.body[place]);
+        if !question.field.is_pixel(place) || seen == Some(asked) {
+            return false;
+        }
+        let ray = question.field.ray(place);
+        let mut solve = |number: u32| {
+            let sphere = &question.bodies[number as usize].sphere;
+            let (answer, stages) = exact::solve_staged(&ray, sphere);
+            counts.note_solved(Some(stages.last()));
+            answer
+        };
+        let answer = solve(asked);
+        let Some(t) = answer.visible() else {
+            return false;
+        };
+        let before = self.layer.t[place];
+        let nearer = match seen {
+            None => true,
+            Some(_) if is_before(t, before) => true,
+            Some(_) if is_before(before, t) => false,
+            Some(seen) => {
+                let other = solve(seen).visible();
+                other.is_none_or(|other| (t, asked) < (other, seen))
             }
+        };
+        if nearer {
+            self.layer.t[place] = t;
+            self.layer.body[place] = asked | ASK;
+            self.layer.contact[place] = Contact::of(&answer);
+        }
+        nearer
+    }
+
+    /// Notes that a run of a tile changed, and after some looks how far the farthest root in it still is.
+    #[inline(always)]
+    fn note_change(&mut self, tile: usize, changed: bool) {
+        let count = &mut self.tiles.changed[tile];
+        *count += u32::from(changed);
+        if *count >= STALE {
+            self.measure(tile);
         }
     }
 
-    /// Tests one run of pixels; how many of them now see this sphere.
+    #[inline(never)]
+    fn measure(&mut self, tile: usize) {
+        let stride = self.tiles.across * TILE;
+        let first = tile / self.tiles.across * TILE * stride + tile % self.tiles.across * TILE;
+        let mut far = [0.0_f32; TILE];
+        for row in self.layer.t[first..].chunks(stride).take(TILE) {
+            for (far, &t) in far.iter_mut().zip(row) {
+                *far = if t > *far { t } else { *far };
+            }
+        }
+        self.tiles.far[tile] = far.into_iter().fold(0.0, f32::max);
+        self.tiles.changed[tile] = 0;
+    }
+}
+
+/// A test of a run of pixels about one sphere.
+trait Test {
+    /// How many pixels.
+    const RUN: usize;
+
+    /// Tests the run that begins at `place`; whether any of its pixels now sees the sphere.
+    fn run(&self, nearest: &mut Nearest, place: usize, counts: &mut Counts) -> bool;
+}
+
+/// The certified test in binary32.
+struct InSingles<'a, const PERSPECTIVE: bool, const ROOTS: bool, const CONSTANT_B: bool> {
+    question: &'a Question<'a>,
+    number: u32,
+    single: &'a Single,
+    /// b = o·d, if it is the same at all pixels.
+    b: f32,
+}
+
+impl<const PERSPECTIVE: bool, const ROOTS: bool, const CONSTANT_B: bool> Test
+    for InSingles<'_, PERSPECTIVE, ROOTS, CONSTANT_B>
+{
+    const RUN: usize = SINGLES;
+
     #[inline(always)]
-    fn test<const PERSPECTIVE: bool, const INSIDE: bool>(
-        &mut self,
-        question: &Question,
-        asked: &Asked,
-        place: usize,
-        counts: &mut Counts,
-    ) -> u32 {
-        let field = question.field;
+    fn run(&self, nearest: &mut Nearest, place: usize, counts: &mut Counts) -> bool {
+        let Question { field, .. } = *self.question;
+        let [x, y, z] = field.varying_singles(place);
+        let a = field.a_singles(place);
+        let shared = field.shared_singles();
+        let single = self.single;
+        let seen = Run::<SINGLES>::load(&nearest.layer, place);
+        let mut next = seen;
+        let mut open = [0; SINGLES];
+        let mut changed = [0; SINGLES];
+        // All of it in one loop, without a branch: then it is compiled to vectors.
+        for l in 0..SINGLES {
+            let varying = [x[l], y[l], z[l]];
+            let (o, d) = if PERSPECTIVE {
+                (single.origin, varying)
+            } else {
+                (sub(varying, single.origin), shared)
+            };
+            let b = if CONSTANT_B { self.b } else { dot(o, d) };
+            let k = cross(o, d);
+            let discriminant = a[l] * single.r2 - dot(k, k);
+            let t = match (ROOTS, PERSPECTIVE) {
+                (true, true) => single.c / (discriminant.sqrt() - b),
+                (true, false) => (-b - discriminant.sqrt()) / a[l],
+                // Where the ray is nearest to the centre.
+                (false, _) => -b / a[l],
+            };
+            // A ray that draws no nearer meets nothing.
+            let draws_nearer = b < 0.0;
+            let hit = draws_nearer & (discriminant > a[l] * single.accept);
+            let doubtful = draws_nearer & !hit & (discriminant >= -a[l] * single.doubt);
+            let before = seen.t[l] * (1.0 - SAME);
+            let nearer = hit & (t < before);
+            let tied = hit & (t >= before) & (t * (1.0 - SAME) <= seen.t[l]);
+            next.t[l] = if nearer { t } else { seen.t[l] };
+            next.body[l] = if nearer { self.number } else { seen.body[l] };
+            open[l] = u32::from(doubtful | tied);
+            changed[l] = u32::from(nearer);
+        }
+
+        counts.tested += SINGLES as u64;
+        counts.roots += if ROOTS { SINGLES as u64 } else { 0 };
+        let changed = any(&changed);
+        // Stored in any case: a store costs less than a branch that goes either way.
+        next.store(&mut nearest.layer, place);
+        if any(&open) {
+            changed | nearest.settle(self.question, self.number, place, open, counts)
+        } else {
+            changed
+        }
+    }
+}
+
+/// The certified test in binary64.
+struct InDoubles<'a, const PERSPECTIVE: bool, const INSIDE: bool> {
+    question: &'a Question<'a>,
+    asked: &'a Asked,
+}
+
+impl<const PERSPECTIVE: bool, const INSIDE: bool> Test for InDoubles<'_, PERSPECTIVE, INSIDE> {
+    const RUN: usize = LANES;
+
+    #[inline(always)]
+    fn run(&self, nearest: &mut Nearest, place: usize, counts: &mut Counts) -> bool {
+        let field = self.question.field;
         let varying = field.varying(place);
         let a = field.a(place);
-        let r2 = Lanes::of(asked.r2);
+        let r2 = Lanes::of(self.asked.r2);
         let (o, d, c, size) = if PERSPECTIVE {
-            let o = asked.o.map(Lanes::of);
-            let size = Lanes::of(dot(asked.o, asked.o) + asked.r2);
-            (o, varying, Lanes::of(asked.c), size)
+            let o = self.asked.o.map(Lanes::of);
+            let size = Lanes::of(dot(self.asked.o, self.asked.o) + self.asked.r2);
+            (o, varying, Lanes::of(self.asked.c), size)
         } else {
-            let o = sub(varying, asked.center.map(Lanes::of));
+            let o = sub(varying, self.asked.center.map(Lanes::of));
             let o2 = dot(o, o);
             (o, field.shared().map(Lanes::of), o2 - r2, o2 + r2)
         };
         let b = dot(o, d);
         let discriminant = b * b - a * c;
         let error = a * (Lanes::of(DISCRIMINANT_ERROR) * size);
-        let accepted = Lanes::of(asked.accept) * error;
-        let root = discriminant.sqrt();
-        let t = if INSIDE {
-            // Every ray hits, and nothing cancels.
-            ((root - b) / a).where_negative(b, -c / (root + b))
+        let accepted = Lanes::of(self.asked.accept) * error;
+        let t = if self.question.roots {
+            counts.roots += LANES as u64;
+            let root = discriminant.sqrt();
+            if INSIDE {
+                // Every ray hits, and nothing cancels.
+                ((root - b) / a).where_negative(b, -c / (root + b))
+            } else {
+                c / (root - b)
+            }
+        } else if INSIDE {
+            // Any point within the sphere tells which comes first: here it is the eye.
+            Lanes::of(f32::MIN_POSITIVE.into())
         } else {
-            c / (root - b)
+            -b / a
         };
 
         // Outside, a ray that draws no nearer meets nothing.
@@ -295,151 +562,86 @@ impl Nearest {
             discriminant.where_negative(b, Lanes::of(f64::NEG_INFINITY))
         };
         let is_hit = |l: usize| INSIDE || discriminant.0[l] > accepted.0[l];
-        let new: [f32; LANES] = from_fn(|l| {
-            if is_hit(l) {
-                t.0[l] as f32
-            } else {
-                f32::INFINITY
-            }
-        });
-        let doubtful: [u32; LANES] =
-            from_fn(|l| u32::from(!is_hit(l)) & u32::from(discriminant.0[l] >= -error.0[l]));
+        let seen = Run::<LANES>::load(&nearest.layer, place);
+        let mut next = seen;
+        let [mut open, mut changed] = [[0; LANES]; 2];
 
         counts.tested += LANES as u64;
-        let entry = asked.number | if INSIDE { self::INSIDE } else { 0 };
-        let (changed, tied) = self.keep_nearer(entry, place, &new);
-        let open: [u32; LANES] = from_fn(|l| doubtful[l] | tied[l]);
-        if open.iter().fold(0, |any, o| any | o) == 0 {
-            changed
-        } else {
-            changed + self.settle(question, asked, place, open, counts)
-        }
-    }
-
-    /// Notes the roots of one sphere where they are nearer: at how many places they are, and where it
-    /// cannot tell.
-    #[inline(always)]
-    fn keep_nearer(&mut self, entry: u32, place: usize, new: &[f32; LANES]) -> (u32, [u32; LANES]) {
-        let t: &mut [f32] = &mut self.t[place..place + LANES];
-        let body: &mut [u32] = &mut self.body[place..place + LANES];
-        let old: [f32; LANES] = from_fn(|l| t[l]);
-        let nearer: [bool; LANES] = from_fn(|l| is_before(new[l], old[l]));
-        let tied: [u32; LANES] = from_fn(|l| {
-            let farther = is_before(old[l], new[l]) || new[l] == f32::INFINITY;
-            u32::from(!nearer[l]) & u32::from(!farther)
-        });
+        let entry = self.asked.number | if INSIDE { super::layer::INSIDE } else { 0 };
         for l in 0..LANES {
-            t[l] = if nearer[l] { new[l] } else { old[l] };
-            body[l] = if nearer[l] { entry } else { body[l] };
+            let hit = is_hit(l);
+            let doubtful = !hit & (discriminant.0[l] >= -error.0[l]);
+            let (t, before) = (t.0[l] as f32, seen.t[l] * (1.0 - SAME));
+            let nearer = hit & (t < before);
+            let tied = hit & (t >= before) & (t * (1.0 - SAME) <= seen.t[l]);
+            next.t[l] = if nearer { t } else { seen.t[l] };
+            next.body[l] = if nearer { entry } else { seen.body[l] };
+            open[l] = u32::from(doubtful | tied);
+            changed[l] = u32::from(nearer);
         }
-        (nearer.iter().map(|&n| u32::from(n)).sum(), tied)
-    }
-
-    /// Asks the method itself at the open places of a run.
-    #[cold]
-    #[inline(never)]
-    fn settle(
-        &mut self,
-        question: &Question,
-        asked: &Asked,
-        place: usize,
-        open: [u32; LANES],
-        counts: &mut Counts,
-    ) -> u32 {
-        (0..LANES)
-            .filter(|&l| open[l] != 0)
-            .filter(|l| self.ask_at(question, asked, place + l, counts))
-            .count() as u32
-    }
-
-    fn ask_alone(
-        &mut self,
-        question: &Question,
-        asked: &Asked,
-        bounds: Bounds,
-        least: f32,
-        counts: &mut Counts,
-    ) {
-        for y in bounds.top as u32..=bounds.bottom as u32 {
-            for x in bounds.left as u32..=bounds.right as u32 {
-                let tile = y as usize / TILE * self.tiles.across + x as usize / TILE;
-                if !is_before(self.tiles.far[tile], least) {
-                    let changed = self.ask_at(question, asked, question.field.place(x, y), counts);
-                    self.note_change(tile, changed.into());
-                }
-            }
+        let changed = any(&changed);
+        // Stored in any case: a store costs less than a branch that goes either way.
+        next.store(&mut nearest.layer, place);
+        if any(&open) {
+            changed | nearest.settle(self.question, self.asked.number, place, open, counts)
+        } else {
+            changed
         }
-    }
-
-    /// Asks the method itself at one place; whether this sphere is now what is seen there.
-    fn ask_at(
-        &mut self,
-        question: &Question,
-        asked: &Asked,
-        place: usize,
-        counts: &mut Counts,
-    ) -> bool {
-        let seen = number(self.body[place]);
-        if !question.field.is_pixel(place) || seen == Some(asked.number) {
-            return false;
-        }
-        let ray = question.field.ray(place);
-        let mut solve = |sphere| {
-            let (answer, stages) = exact::solve_staged(&ray, sphere);
-            counts.solved += 1;
-            counts.stages[stages.last() as usize] += 1;
-            answer.visible()
-        };
-        let Some(t) = solve(asked.sphere) else {
-            return false;
-        };
-        let before = self.t[place];
-        let nearer = match seen {
-            None => true,
-            Some(_) if is_before(t, before) => true,
-            Some(_) if is_before(before, t) => false,
-            Some(seen) => {
-                let other = solve(&question.bodies[seen as usize].sphere);
-                other.is_none_or(|other| (t, asked.number) < (other, seen))
-            }
-        };
-        if nearer {
-            self.t[place] = t;
-            self.body[place] = asked.number | ASK;
-        }
-        nearer
-    }
-
-    /// Counts changes in a tile, and after some looks how far the farthest root in it still is.
-    #[inline(always)]
-    fn note_change(&mut self, tile: usize, changed: u32) {
-        self.tiles.changed[tile] += changed;
-        if self.tiles.changed[tile] >= STALE {
-            self.measure(tile);
-        }
-    }
-
-    #[inline(never)]
-    fn measure(&mut self, tile: usize) {
-        let stride = self.tiles.across * TILE;
-        let first = tile / self.tiles.across * TILE * stride + tile % self.tiles.across * TILE;
-        let far = self.t[first..]
-            .chunks(stride)
-            .take(TILE)
-            .flat_map(|row| &row[..TILE])
-            .fold(0.0_f32, |far, &t| if t > far { t } else { far });
-        self.tiles.far[tile] = far;
-        self.tiles.changed[tile] = 0;
     }
 }
 
-/// The number of the sphere that an entry of the buffer names.
-pub(super) const fn number(body: u32) -> Option<u32> {
-    if body == NOBODY {
-        None
-    } else {
-        Some(body & !(ASK | INSIDE))
+/// No test but the method itself.
+struct Alone<'a> {
+    question: &'a Question<'a>,
+    number: u32,
+}
+
+impl Test for Alone<'_> {
+    const RUN: usize = 1;
+
+    #[inline(always)]
+    fn run(&self, nearest: &mut Nearest, place: usize, counts: &mut Counts) -> bool {
+        nearest.ask_at(self.question, self.number, place, counts)
     }
+}
+
+/// What is seen at a run of pixels.
+#[derive(Clone, Copy)]
+struct Run<const N: usize> {
+    t: [f32; N],
+    body: [u32; N],
+}
+
+impl<const N: usize> Run<N> {
+    #[inline(always)]
+    fn load(layer: &Layer, place: usize) -> Self {
+        let run = place..place + N;
+        let (t, body) = (&layer.t[run.clone()], &layer.body[run]);
+        let mut run = Self {
+            t: [0.0; N],
+            body: [0; N],
+        };
+        run.t.copy_from_slice(t);
+        run.body.copy_from_slice(body);
+        run
+    }
+
+    #[inline(always)]
+    fn store(&self, layer: &mut Layer, place: usize) {
+        let run = place..place + N;
+        layer.t[run.clone()].copy_from_slice(&self.t);
+        layer.body[run].copy_from_slice(&self.body);
+    }
+}
+
+/// Whether any of them is not zero, without a branch for each.
+#[inline(always)]
+fn any<const N: usize>(lanes: &[u32; N]) -> bool {
+    let mut any = 0;
+    for &lane in lanes {
+        any |= lane;
+    }
+    any != 0
 }
 
 /// Whether a root in the buffer is less than another one, or than a bound, beyond doubt.

@@ -118,6 +118,12 @@ impl View {
         !matches!(self, Self::Class | Self::Delta | Self::Stage)
     }
 
+    /// Whether nothing is shown but where which sphere is seen and how lines meet it: no root, and
+    /// nothing that depends on one.
+    pub(super) const fn shows_only_contours(self) -> bool {
+        matches!(self, Self::Class | Self::Outline)
+    }
+
     /// Whether the visible roots themselves are shown, or numbers that depend on their last bits.
     pub(super) const fn shows_roots(self) -> bool {
         matches!(self, Self::Depth)

@@ -21,6 +21,16 @@ pub enum Projection {
     },
 }
 
+impl Projection {
+    /// The name in files and on the screen.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Orthographic { .. } => "orthographic",
+            Self::Perspective { .. } => "perspective",
+        }
+    }
+}
+
 /// The eye. The world is right-handed: right = forward × up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {

@@ -38,10 +38,7 @@ impl Scene {
 
 impl Camera {
     fn write_to(&self, out: &mut impl Write) -> fmt::Result {
-        let name = match self.projection {
-            Projection::Orthographic { .. } => "orthographic",
-            Projection::Perspective { .. } => "perspective",
-        };
+        let name = self.projection.name();
         writeln!(out, "\n[camera]\nprojection = \"{name}\"")?;
         writeln!(out, "position = {}", list(self.position))?;
         writeln!(out, "look_at = {}", list(self.look_at))?;

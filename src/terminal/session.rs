@@ -248,6 +248,7 @@ impl Session {
         let cursor = explorer.draw(&mut self.canvas);
         let limits = Limits::of(&explorer.options());
         let bytes = self.painter.paint(&mut self.canvas, cursor, limits);
+        explorer.note_sent(bytes.len());
         self.frame.extend_from_slice(bytes);
         if explorer.wants_mouse() != self.mouse {
             self.mouse = explorer.wants_mouse();

@@ -2,30 +2,32 @@
 //! each pixel.
 
 use super::Frame;
-use crate::method::Method;
+use super::memory::Memory;
+use crate::geometry::Sphere;
+use crate::method::exact;
+use crate::method::simd::{self, Kernel};
 use crate::render::View;
 use crate::render::bounds::Eye;
-use crate::render::cover::{BLOCK, Bounds, Projector};
+use crate::render::cover::{BLOCK, Block, Bounds, Projector};
+use crate::render::field::Field;
 use crate::render::finish;
-use crate::render::lanes::LANES;
-use crate::render::layer::Contact;
-use crate::render::nearest::{NOBODY, Question};
-use crate::scene::{Rays, Scene};
+use crate::render::lanes::SINGLES;
+use crate::render::layer::{Contact, NOBODY};
+use crate::render::nearest::{Candidate, Nearest, Question};
+use crate::render::plan::Counts;
+use crate::scene::{Body, Rays, Scene};
 
 impl Frame {
     /// The whole picture.
     pub(super) fn start_certified(&mut self, scene: &Scene, rays: &Rays) {
         let eye = (self.plan.view() == View::Class).then(|| Eye::new(rays));
-        self.find_nearest(scene, rays, |frame, number, front| {
-            let line = eye
-                .as_ref()
-                .map(|eye| eye.window(&scene.bodies[number as usize].sphere, 1.0));
-            frame
-                .memory
-                .learn(front.union(line.unwrap_or(Bounds::NONE)));
+        self.find_nearest(scene, rays, |memory, body, front| {
+            let line = eye.as_ref().map(|eye| eye.window(&body.sphere, 1.0));
+            memory.learn(body, front.union(line.unwrap_or(Bounds::NONE)));
         });
+        self.value.clear();
+        self.value.resize(self.field.places(), 0.0);
         let whole = Bounds::whole(rays.size);
-        self.make_room();
         self.finish(scene, whole);
         if let Some(eye) = eye {
             self.find_what_is_behind(scene, &eye, whole);
@@ -35,7 +37,7 @@ impl Frame {
     /// The pixels within `part`, and what shares a run with them.
     pub(super) fn redo_certified(&mut self, scene: &Scene, rays: &Rays, part: Bounds) {
         let part = part
-            .in_runs_of(LANES as i16)
+            .in_runs_of(SINGLES as i16)
             .within(Bounds::whole(rays.size));
         self.find_nearest_within(scene, rays, part);
         self.finish(scene, part);
@@ -49,31 +51,28 @@ impl Frame {
         &mut self,
         scene: &Scene,
         rays: &Rays,
-        mut learn: impl FnMut(&mut Self, u32, Bounds),
+        mut learn: impl FnMut(&mut Memory, &Body, Bounds),
     ) {
         self.nearest.clear(&self.field);
         let projector = Projector::new(rays);
-        let mut block = std::mem::take(&mut self.block);
         for (first, bodies) in (0..).step_by(BLOCK).zip(scene.bodies.chunks(BLOCK)) {
-            projector.bound(bodies, &mut block);
-            for i in 0..bodies.len() {
-                let (bounds, least) = (block.bounds(i), block.least(i));
-                let number = first + i as u32;
-                learn(self, number, bounds);
-                if bounds.is_empty() {
-                    if block.is_behind(i) {
-                        self.plan.counts.behind += 1;
-                    } else {
-                        self.plan.counts.outside += 1;
-                    }
-                } else if self.nearest.hides(bounds, least) {
-                    self.plan.counts.hidden += 1;
-                } else {
-                    self.ask_nearest(scene, number, bounds, least);
-                }
+            simd::dispatch(Search {
+                projector: &projector,
+                question: Question {
+                    field: &self.field,
+                    bodies: &scene.bodies,
+                    roots: self.plan.roots_tell_depths(),
+                },
+                first,
+                chunk: bodies,
+                block: &mut self.block,
+                nearest: &mut self.nearest,
+                counts: &mut self.plan.counts,
+            });
+            for (i, body) in bodies.iter().enumerate() {
+                learn(&mut self.memory, body, self.block.bounds(i));
             }
         }
-        self.block = block;
         self.nearest.trim(&self.field);
     }
 
@@ -81,70 +80,147 @@ impl Frame {
     pub(super) fn find_nearest_within(&mut self, scene: &Scene, rays: &Rays, part: Bounds) {
         self.nearest.reopen(&self.field, part);
         let projector = Projector::new(rays);
-        for number in 0..scene.bodies.len() {
-            if self.memory.bounds()[number].is_apart_from(part) {
+        let question = Question {
+            field: &self.field,
+            bodies: &scene.bodies,
+            roots: self.plan.roots_tell_depths(),
+        };
+        for (number, known) in (0..).zip(self.memory.bounds()) {
+            if known.is_apart_from(part) {
                 continue;
             }
-            let (bounds, least) = projector.bound_one(&scene.bodies[number].sphere);
-            let bounds = bounds.within(part);
+            let sphere = &scene.bodies[number as usize].sphere;
+            projector.bound_one(sphere, &mut self.block);
+            let bounds = self.block.bounds(0).within(part);
             if !bounds.is_empty() {
-                self.ask_nearest(scene, number as u32, bounds, least);
+                let candidate = candidate(
+                    &projector,
+                    &self.field,
+                    (&self.block, 0),
+                    number,
+                    sphere,
+                    bounds,
+                );
+                self.plan.counts.asked += 1;
+                let counts = &mut self.plan.counts;
+                self.nearest.ask(&question, &candidate, counts);
             }
         }
         self.nearest.trim(&self.field);
     }
 
-    fn ask_nearest(&mut self, scene: &Scene, number: u32, bounds: Bounds, least: f32) {
-        self.plan.note_box(bounds);
-        let question = Question {
-            field: &self.field,
-            bodies: &scene.bodies,
-        };
-        self.nearest
-            .ask(&question, number, bounds, least, &mut self.plan.counts);
-    }
-
     /// Works out, once for each pixel within `part`, what the view asks of what is seen there.
     fn finish(&mut self, scene: &Scene, part: Bounds) {
-        let question = Question {
-            field: &self.field,
-            bodies: &scene.bodies,
-        };
-        let roots = self.plan.view().shows_roots();
+        let (view, light) = (self.plan.view(), self.plan.light());
+        self.roots_are_rough = !view.shows_roots();
         let counts = &mut self.plan.counts;
-        self.roots_are_rough = !roots;
-        finish::identify(
-            &question,
-            &self.nearest,
-            &mut self.seen,
-            part,
-            roots,
-            counts,
-        );
-        if self.plan.view() == View::Shade {
-            let light = self.plan.light();
-            let counts = &mut self.plan.counts;
-            finish::shade(&question, &self.seen, light, part, &mut self.value, counts);
+        if view.shows_roots() {
+            let layer = &mut self.nearest.layer;
+            finish::round_roots(&self.field, &scene.bodies, layer, part, counts);
+        }
+        if view == View::Shade {
+            simd::dispatch(finish::Shading {
+                field: &self.field,
+                bodies: &scene.bodies,
+                seen: &self.nearest.layer,
+                light,
+                part,
+                value: &mut self.value,
+                counts,
+            });
         }
     }
 
     /// Where nothing is seen, what the lines within `part` meet behind the eye.
     fn find_what_is_behind(&mut self, scene: &Scene, eye: &Eye, part: Bounds) {
+        let layer = &mut self.nearest.layer;
         for (number, body) in scene.bodies.iter().enumerate() {
-            if self.memory.bounds()[number].is_apart_from(part) || !eye.may_be_behind(&body.sphere)
-            {
+            let known = self.memory.bounds()[number];
+            if known.is_apart_from(part) || !eye.may_be_behind(&body.sphere) {
                 continue;
             }
             let window = eye.window(&body.sphere, 1.0).within(part);
             for place in self.field.places_within(window) {
-                if self.seen.body[place] != NOBODY {
-                    continue;
+                if layer.body[place] == NOBODY {
+                    let ray = self.field.ray(place);
+                    let (answer, stages) = exact::solve_staged(&ray, &body.sphere);
+                    self.plan.counts.note_solved(Some(stages.last()));
+                    let contact = &mut layer.contact[place];
+                    *contact = (*contact).max(Contact::of(&answer));
                 }
-                self.plan.note_solved(None);
-                let answer = Method::Exact.solve(&self.field.ray(place), &body.sphere);
-                let contact = &mut self.seen.contact[place];
-                *contact = (*contact).max(Contact::of(&answer));
             }
         }
+    }
+}
+
+/// Bounds the spheres of a block and asks about each where it can be seen.
+struct Search<'a> {
+    projector: &'a Projector,
+    question: Question<'a>,
+    /// The number of the block's first sphere, and its spheres.
+    first: u32,
+    chunk: &'a [Body],
+    block: &'a mut Block,
+    nearest: &'a mut Nearest,
+    counts: &'a mut Counts,
+}
+
+impl Kernel for Search<'_> {
+    #[inline(always)]
+    fn run(self) {
+        let Self {
+            projector,
+            question,
+            block,
+            nearest,
+            counts,
+            ..
+        } = self;
+        projector.bound(self.chunk, block);
+        for (i, body) in self.chunk.iter().enumerate() {
+            let (bounds, least) = (block.bounds(i), block.least(i));
+            if bounds.is_empty() {
+                if block.is_behind(i) {
+                    counts.behind += 1;
+                } else {
+                    counts.outside += 1;
+                }
+            } else if nearest.hides(bounds, least) {
+                counts.hidden += 1;
+            } else {
+                let number = self.first + i as u32;
+                let candidate = candidate(
+                    projector,
+                    question.field,
+                    (block, i),
+                    number,
+                    &body.sphere,
+                    bounds,
+                );
+                counts.asked += 1;
+                nearest.ask(&question, &candidate, counts);
+            }
+        }
+    }
+}
+
+/// Sphere `i` of a block, to be asked about within `bounds`.
+#[inline(always)]
+fn candidate(
+    projector: &Projector,
+    field: &Field,
+    (block, i): (&Block, usize),
+    number: u32,
+    sphere: &Sphere,
+    bounds: Bounds,
+) -> Candidate {
+    Candidate {
+        number,
+        bounds,
+        spans: Candidate::is_wide(bounds).then(|| projector.spans(sphere)),
+        least: block.least(i),
+        single: block
+            .single(i, projector.perspective)
+            .filter(|_| field.ordinary()),
     }
 }

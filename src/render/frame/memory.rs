@@ -2,36 +2,37 @@
 
 use crate::geometry::Sphere;
 use crate::render::cover::Bounds;
-use crate::scene::Body;
+use crate::scene::{Body, Rgb};
 
 /// With more changes than this a picture is made anew.
 pub(super) const MOST: usize = 32;
 
-/// The spheres of the last frame, and where each of them can be seen.
+/// The spheres of the last frame with their colours, and where each of them can be seen.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Memory {
     is_complete: bool,
-    spheres: Vec<Sphere>,
+    spheres: Vec<(Sphere, Option<Rgb>)>,
     bounds: Vec<Bounds>,
     changes: Vec<u32>,
 }
 
 impl Memory {
-    /// Forgets where spheres can be seen.
+    /// Forgets all spheres.
     pub(super) fn forget(&mut self) {
         self.is_complete = false;
+        self.spheres.clear();
         self.bounds.clear();
     }
 
-    /// Remembers where the next sphere of the list can be seen.
-    pub(super) fn learn(&mut self, bounds: Bounds) {
+    /// Remembers the next sphere of the list and where it can be seen.
+    #[inline]
+    pub(super) fn learn(&mut self, body: &Body, bounds: Bounds) {
+        self.spheres.push((body.sphere, body.color));
         self.bounds.push(bounds);
     }
 
-    /// Remembers all spheres, after where each can be seen.
+    /// Notes whether all of these were learnt.
     pub(super) fn complete(&mut self, bodies: &[Body]) {
-        self.spheres.clear();
-        self.spheres.extend(bodies.iter().map(|body| body.sphere));
         self.is_complete = self.bounds.len() == bodies.len();
     }
 
@@ -42,7 +43,7 @@ impl Memory {
             return false;
         }
         for (number, (before, body)) in (0..).zip(self.spheres.iter().zip(bodies)) {
-            if *before != body.sphere {
+            if *before != (body.sphere, body.color) {
                 if self.changes.len() == MOST {
                     return false;
                 }
@@ -58,9 +59,9 @@ impl Memory {
     }
 
     /// Remembers what a sphere is now and where it can be seen; where it could be seen before.
-    pub(super) fn replace(&mut self, number: u32, sphere: Sphere, bounds: Bounds) -> Bounds {
+    pub(super) fn replace(&mut self, number: u32, body: &Body, bounds: Bounds) -> Bounds {
         let i = number as usize;
-        self.spheres[i] = sphere;
+        self.spheres[i] = (body.sphere, body.color);
         std::mem::replace(&mut self.bounds[i], bounds)
     }
 

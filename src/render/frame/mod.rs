@@ -7,6 +7,8 @@ mod certified;
 mod memory;
 mod plain;
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use glam::Vec3;
 
 use super::View;
@@ -14,7 +16,7 @@ use super::bounds::Eye;
 use super::cover::{Block, Bounds, Projector};
 use super::field::Field;
 use super::layer::{Contact, Layer};
-use super::nearest::{NOBODY, Nearest, is_before};
+use super::nearest::{Nearest, is_before};
 use super::plan::{Plan, Way};
 use super::shade;
 use crate::geometry::Sphere;
@@ -53,12 +55,12 @@ pub(super) const FARTHEST_MISS: f32 = -3.0;
 pub struct Frame {
     plan: Plan,
     field: Field,
-    seen: Layer,
-    /// Whether the roots of `seen` are only about where the method has them.
-    roots_are_rough: bool,
-    /// What `exact` sees, in the view that compares the two.
-    truth: Layer,
+    /// What is seen, where the method itself was asked everywhere.
+    asked: Layer,
+    /// What `exact` sees: of its frames what is seen, of the view that compares the two the truth.
     nearest: Nearest,
+    /// Whether the roots that are seen are only about where the method has them.
+    roots_are_rough: bool,
     /// Where the spheres of one block can be seen: room to work in.
     block: Block,
     /// What the view shows of each pixel, if that is a number: its brightness, Δ/(4Ar²), the bits
@@ -67,7 +69,14 @@ pub struct Frame {
     /// The least and the greatest finite root seen.
     range: Option<[f32; 2]>,
     memory: Memory,
+    /// Which of all pictures this is, and which one it differs from in nothing but `redone`.
+    edition: u64,
+    differs_from: Option<u64>,
+    redone: Vec<Bounds>,
 }
+
+/// Numbers all pictures of this process.
+static EDITIONS: AtomicU64 = AtomicU64::new(1);
 
 impl Frame {
     /// A frame of no pixels.
@@ -79,17 +88,28 @@ impl Frame {
     /// found is kept where it still holds.
     pub fn render(&mut self, scene: &Scene, rays: &Rays, method: Method, view: View) {
         let aimed = self.field.aim(rays);
-        let plan = Plan::new(scene, rays, method, view);
+        let constant_b = self.field.constant_b();
+        let plan = Plan::new(scene, rays, constant_b, method, view);
         let same = !aimed && self.plan.asks_the_same(&plan);
         self.plan = plan;
+        self.plan.counts.rays = if aimed { self.size().area() as u64 } else { 0 };
         if same && self.memory.find_changes(&scene.bodies) {
             self.update(scene, rays);
         } else {
             self.start(scene, rays);
         }
-        self.range = (view == View::Depth)
-            .then(|| range_of(&self.seen.t))
+        self.find_range();
+    }
+
+    /// The range of depths; where it is another one, each pixel that is seen looks different.
+    fn find_range(&mut self) {
+        let before = self.range;
+        self.range = (self.plan.view() == View::Depth)
+            .then(|| range_of(&self.layer().t))
             .flatten();
+        if self.range != before {
+            self.differs_from = None;
+        }
     }
 
     /// As [`Frame::render`], but asks about every sphere at every pixel: what `render` must equal,
@@ -98,13 +118,13 @@ impl Frame {
         self.field.aim(rays);
         self.plan = Plan::of_everything(scene, rays, method, view);
         self.start(scene, rays);
-        self.range = (view == View::Depth)
-            .then(|| range_of(&self.seen.t))
-            .flatten();
+        self.find_range();
     }
 
     /// The whole picture anew.
     fn start(&mut self, scene: &Scene, rays: &Rays) {
+        self.edition = EDITIONS.fetch_add(1, Ordering::Relaxed);
+        self.differs_from = None;
         self.memory.forget();
         match self.plan.way() {
             Way::Certified => self.start_certified(scene, rays),
@@ -119,9 +139,9 @@ impl Frame {
         let mut parts = [Bounds::NONE; 2 * MOST];
         for (i, part) in parts.chunks_exact_mut(2).take(changes).enumerate() {
             let number = self.memory.changes()[i];
-            let sphere = scene.bodies[number as usize].sphere;
-            let after = self.bounds_of(&sphere, rays);
-            let before = self.memory.replace(number, sphere, after);
+            let body = &scene.bodies[number as usize];
+            let after = self.bounds_of(&body.sphere, rays);
+            let before = self.memory.replace(number, body, after);
             part.copy_from_slice(&if before.is_apart_from(after) {
                 [before, after]
             } else {
@@ -135,6 +155,11 @@ impl Frame {
             return;
         }
         self.plan.counts.kept = all - redone;
+        self.differs_from = Some(self.edition);
+        self.edition = EDITIONS.fetch_add(1, Ordering::Relaxed);
+        self.redone.clear();
+        self.redone
+            .extend(parts.iter().filter(|part| !part.is_empty()));
         for part in parts.into_iter().filter(|part| !part.is_empty()) {
             match self.plan.way() {
                 Way::Certified => self.redo_certified(scene, rays, part),
@@ -144,26 +169,43 @@ impl Frame {
     }
 
     /// Where a sphere can be seen, as this frame remembers it.
-    fn bounds_of(&self, sphere: &Sphere, rays: &Rays) -> Bounds {
-        let line = || Eye::new(rays).window(sphere, self.reach());
+    fn bounds_of(&mut self, sphere: &Sphere, rays: &Rays) -> Bounds {
+        let reach = self.reach();
+        let line = || Eye::new(rays).window(sphere, reach);
+        let front = |block: &mut Block| {
+            Projector::new(rays).bound_one(sphere, block);
+            block.bounds(0)
+        };
         match (self.plan.way(), self.plan.view()) {
-            (Way::Certified, View::Class) => {
-                let (front, _) = Projector::new(rays).bound_one(sphere);
-                front.union(line())
-            }
-            (Way::Certified, _) => Projector::new(rays).bound_one(sphere).0,
+            (Way::Certified, View::Class) => front(&mut self.block).union(line()),
+            (Way::Certified, _) => front(&mut self.block),
             (Way::Widened, _) => line(),
             (Way::Everything, _) => Bounds::whole(rays.size),
         }
     }
 
-    /// Makes room for the answers of all pixels; what is there is of no use.
-    fn make_room(&mut self) {
-        let places = self.field.places();
-        self.seen.resize(places);
-        self.truth.resize(places);
-        self.value.clear();
-        self.value.resize(places, 0.0);
+    /// What is seen.
+    fn layer(&self) -> &Layer {
+        match self.plan.way() {
+            Way::Certified => &self.nearest.layer,
+            Way::Widened | Way::Everything => &self.asked,
+        }
+    }
+
+    /// Which of all pictures this is.
+    pub(super) const fn edition(&self) -> u64 {
+        self.edition
+    }
+
+    /// Where this picture differs from the one of that edition; none if it may differ anywhere.
+    pub(super) fn parts_changed_since(&self, edition: u64) -> Option<&[Bounds]> {
+        if edition == self.edition {
+            Some(&[])
+        } else if self.differs_from == Some(edition) {
+            Some(&self.redone)
+        } else {
+            None
+        }
     }
 
     /// What was asked for this frame, and what was left out and why.
@@ -188,8 +230,7 @@ impl Frame {
 
     /// The place in the scene's list of the sphere that is seen at pixel (x, y), if one is.
     pub fn seen(&self, x: u32, y: u32) -> Option<u32> {
-        let body = self.seen.body[self.index(x, y)?];
-        (body != NOBODY).then_some(body)
+        self.layer().seen(self.index(x, y)?)
     }
 
     /// The nearest visible hit at pixel (x, y), if there is one; nothing outside the picture.
@@ -204,7 +245,7 @@ impl Frame {
             let ray = self.field.ray(place);
             self.plan.method().solve(&ray, sphere).visible()?
         } else {
-            self.seen.t[place]
+            self.layer().t[place]
         };
         Some(Hit { body, t })
     }
@@ -214,7 +255,7 @@ impl Frame {
     /// Only [`View::Class`] tells what is behind the eye; for the other views it is a miss.
     pub fn contact(&self, x: u32, y: u32) -> Contact {
         self.index(x, y)
-            .map_or(Contact::Miss, |i| self.seen.contact[i])
+            .map_or(Contact::Miss, |i| self.layer().contact(i))
     }
 
     fn value(&self, view: View, x: u32, y: u32) -> Option<f32> {
@@ -262,8 +303,8 @@ impl Frame {
             method: self.plan.method(),
             ray: &self.field.ray(i),
             sphere: &scene.bodies.get(self.seen(x, y)? as usize)?.sphere,
-            t: self.seen.t[i],
-            place: self.seen.contact[i].visible_root(),
+            t: self.layer().t[i],
+            place: self.layer().contact(i).visible_root(),
         };
         let normal = hit.normal().try_normalize()?;
         let axes = [camera.right, -camera.down, -camera.direction];
@@ -310,15 +351,21 @@ impl Frame {
         let [Some(i), Some(j)] = [there, here].map(|(x, y)| self.index(x, y)) else {
             return false;
         };
-        let [there_is, here_is] = [i, j].map(|place| (self.seen.t[place], self.seen.body[place]));
+        let layer = self.layer();
+        let [there_is, here_is] = [i, j].map(|place| (layer.t[place], layer.seen(place)));
         if there_is.1 == here_is.1 {
             return false;
         }
-        if there_is.1 == NOBODY || is_before(here_is.0, there_is.0) {
+        if there_is.1.is_none() {
             return true;
         }
-        if is_before(there_is.0, here_is.0) {
-            return false;
+        if self.plan.roots_tell_depths() {
+            if is_before(here_is.0, there_is.0) {
+                return true;
+            }
+            if is_before(there_is.0, here_is.0) {
+                return false;
+            }
         }
         // About as far away as each other: only the method can tell.
         let order = |(x, y): (u32, u32)| self.hit(scene, x, y).map(|hit| (hit.t, hit.body));

@@ -8,8 +8,7 @@ use crate::render::View;
 use crate::render::bounds::Eye;
 use crate::render::cover::Bounds;
 use crate::render::finish;
-use crate::render::layer::Contact;
-use crate::render::nearest::{NOBODY, Question};
+use crate::render::layer::{Contact, NOBODY};
 use crate::render::plan::Way;
 use crate::render::shade;
 use crate::scene::{Rays, Scene};
@@ -25,13 +24,17 @@ impl Frame {
                 _ => eye.window(&body.sphere, self.reach()),
             };
             self.plan.counts.outside += u64::from(bounds.is_empty());
-            self.memory.learn(bounds);
+            self.memory.learn(body, bounds);
         }
-        self.make_room();
+        self.asked.clear_all(self.field.places());
+        self.value.clear();
+        self.value.resize(self.field.places(), 0.0);
         if self.compares() {
             self.find_nearest(scene, rays, |_, _, _| ());
+        } else if self.plan.view() == View::Lost {
+            self.nearest.clear(&self.field);
         }
-        self.ask_within(scene, whole);
+        self.ask_within(scene, rays, whole);
     }
 
     /// The pixels within `part`.
@@ -39,7 +42,7 @@ impl Frame {
         if self.compares() {
             self.find_nearest_within(scene, rays, part);
         }
-        self.ask_within(scene, part);
+        self.ask_within(scene, rays, part);
     }
 
     /// Up to how many radii from a sphere's centre a line is of interest.
@@ -56,25 +59,37 @@ impl Frame {
         self.plan.view() == View::Lost && self.plan.way() == Way::Widened
     }
 
-    fn ask_within(&mut self, scene: &Scene, part: Bounds) {
+    fn ask_within(&mut self, scene: &Scene, rays: &Rays, part: Bounds) {
         self.roots_are_rough = false;
         let none = match self.plan.view() {
             View::Delta => f32::NEG_INFINITY,
             _ => 0.0,
         };
-        for place in self.field.places_within(part) {
-            self.seen.clear(place);
-            self.truth.clear(place);
-            self.value[place] = none;
+        for y in part.top..=part.bottom {
+            let run = self.field.run(y, [part.left, part.right]);
+            self.value[run.clone()].fill(none);
+            self.asked.clear_run(run);
         }
+        let eye = Eye::new(rays);
         for (number, body) in (0..NOBODY).zip(&scene.bodies) {
             let bounds = self.memory.bounds()[number as usize].within(part);
             if bounds.is_empty() {
                 continue;
             }
-            self.plan.note_box(bounds);
-            for place in self.field.places_within(bounds) {
-                self.ask(place, number, &body.sphere);
+            self.plan.counts.asked += 1;
+            let spans = match self.plan.way() {
+                Way::Everything => None,
+                _ => eye.spans(&body.sphere, self.reach()),
+            };
+            for y in bounds.top..=bounds.bottom {
+                let columns = match &spans {
+                    Some(spans) => spans.at(y, bounds),
+                    None => [bounds.left, bounds.right],
+                };
+                self.plan.counts.note_row(columns[0], columns[1]);
+                for place in self.field.run(y, columns) {
+                    self.ask(place, number, &body.sphere);
+                }
             }
         }
         if self.plan.view() == View::Lost {
@@ -100,15 +115,16 @@ impl Frame {
             }
             method => (method.solve(ray, sphere), None),
         };
-        self.plan.note_solved(stage);
+        self.plan.counts.note_solved(stage);
+        self.plan.counts.roots += u64::from(answer.class.meets());
         let is_seen = self
-            .seen
+            .asked
             .note(place, number, &answer, self.plan.view() == View::Class);
         if self.plan.view() == View::Delta {
             let delta = normalised_discriminant(method, ray, sphere, answer.class);
             if is_seen {
                 self.value[place] = delta;
-            } else if self.seen.body[place] == NOBODY && delta > FARTHEST_MISS {
+            } else if self.asked.seen(place).is_none() && delta > FARTHEST_MISS {
                 self.value[place] = self.value[place].max(delta);
             }
         }
@@ -117,41 +133,30 @@ impl Frame {
     /// What `exact` sees within `part`.
     fn find_truth(&mut self, scene: &Scene, part: Bounds) {
         if self.plan.way() == Way::Widened {
-            let question = Question {
-                field: &self.field,
-                bodies: &scene.bodies,
-            };
-            let counts = &mut self.plan.counts;
-            finish::identify(
-                &question,
-                &self.nearest,
-                &mut self.truth,
-                part,
-                true,
-                counts,
-            );
+            let (layer, counts) = (&mut self.nearest.layer, &mut self.plan.counts);
+            finish::round_roots(&self.field, &scene.bodies, layer, part, counts);
             return;
         }
         for (number, body) in (0..NOBODY).zip(&scene.bodies) {
             for place in self.field.places_within(part) {
                 let answer = Method::Exact.solve(&self.field.ray(place), &body.sphere);
-                self.truth.note(place, number, &answer, false);
+                self.nearest.layer.note(place, number, &answer, false);
             }
         }
     }
 
     /// Whether the sphere that is seen is rightly touched or rightly crossed.
     fn has_right_class(&self, place: usize, ray: &Ray, sphere: &Sphere) -> bool {
-        let touches = self.seen.contact[place] == Contact::Tangent;
+        let touches = self.asked.contact(place) == Contact::Tangent;
         touches == (Method::Exact.solve(ray, sphere).class == Class::Tangent)
     }
 
     /// What the view asks of the sphere that is seen at one pixel.
     fn finish_pixel(&mut self, scene: &Scene, place: usize) {
-        let number = self.seen.body[place];
-        let sphere = scene.bodies.get(number as usize).map(|body| &body.sphere);
+        let seen = self.asked.seen(place);
+        let sphere = seen.map(|number| &scene.bodies[number as usize].sphere);
         let ray = &self.field.ray(place);
-        let which = self.seen.contact[place].visible_root();
+        let which = self.asked.contact(place).visible_root();
         match (self.plan.view(), sphere) {
             (View::Shade, Some(sphere)) => {
                 self.plan.counts.shaded += 1;
@@ -159,16 +164,17 @@ impl Frame {
                     method: self.plan.method(),
                     ray,
                     sphere,
-                    t: self.seen.t[place],
+                    t: self.asked.t[place],
                     place: which,
                 };
                 self.value[place] = hit.brightness(scene.light);
             }
             (View::Lost, _) => {
-                let is_right = number == self.truth.body[place]
+                let truth = &self.nearest.layer;
+                let is_right = seen == truth.seen(place)
                     && sphere.is_none_or(|s| self.has_right_class(place, ray, s));
                 let bits = is_right
-                    .then(|| root_bits_lost(self.seen.t[place], self.truth.t[place]))
+                    .then(|| root_bits_lost(self.asked.t[place], truth.t[place]))
                     .flatten();
                 self.value[place] = bits.map_or(f32::INFINITY, |bits| bits as f32);
             }

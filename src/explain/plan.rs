@@ -1,0 +1,102 @@
+//! The plan of a frame as lines of text: what was done, what was left out, and why.
+
+use std::fmt::Write as _;
+
+use super::panel::{Line, Role};
+use super::wrap;
+use crate::render;
+
+/// Columns of a thing's name, and of each of its two numbers.
+const NAME: usize = 17;
+const NUMBER: usize = 8;
+
+/// The plan for a panel: first the numbers of all things, then the reasons.
+pub fn plan_panel(plan: &[render::Line], width: usize) -> Vec<Line> {
+    let spread = width.saturating_sub(NAME + 2 * NUMBER) / 2;
+    let [first, second] = [NAME + NUMBER + spread, NAME + 2 * (NUMBER + spread)];
+    let mut out = vec![
+        Line::new(0)
+            .with(Role::Label, right("kept", first))
+            .with(Role::Label, right("left out", second - first)),
+    ];
+    for line in plan {
+        let role = if line.left_out > 0 {
+            Role::Value
+        } else {
+            Role::Faint
+        };
+        out.push(
+            Line::new(0)
+                .with(Role::Plain, format!("{:NAME$}", line.what))
+                .with(Role::Plain, right(&compact(line.kept), first - NAME))
+                .with(role, right(&compact(line.left_out), second - first)),
+        );
+    }
+    for line in plan {
+        out.push(Line::new(0));
+        out.push(Line::new(0).with(Role::Label, line.what.trim_start()));
+        let words = wrap(&line.because, width.saturating_sub(2));
+        out.extend(
+            words
+                .into_iter()
+                .map(|text| Line::plain(format!("  {text}"))),
+        );
+    }
+    out
+}
+
+/// The plan as a table, with the reasons in a column of their own.
+pub fn plan_text(plan: &[render::Line], width: usize) -> String {
+    let wide = 12;
+    let margin = NAME + 2 * (wide + 1) + 2;
+    let mut out = format!(
+        "{:NAME$} {:>wide$} {:>wide$}  because\n",
+        "", "kept", "left out"
+    );
+    for line in plan {
+        let numbers = format!(
+            "{:NAME$} {:>wide$} {:>wide$}",
+            line.what, line.kept, line.left_out
+        );
+        let words = wrap(&line.because, width.saturating_sub(margin));
+        for (i, text) in words.iter().enumerate() {
+            let start = if i == 0 { numbers.as_str() } else { "" };
+            // Writing to a string does not fail.
+            let _ = writeln!(out, "{start:0$}  {text}", margin - 2);
+        }
+    }
+    out
+}
+
+fn right(text: &str, width: usize) -> String {
+    format!("{text:>width$}")
+}
+
+/// A number in at most seven columns.
+fn compact(n: u64) -> String {
+    match n {
+        0..10_000_000 => n.to_string(),
+        10_000_000..10_000_000_000 => format!("{}·10⁶", n / 1_000_000),
+        _ => format!("{}·10⁹", n / 1_000_000_000),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panel_of_36_columns_holds_every_line() {
+        let plan = [
+            render::Line::new("stage 3", 1, 23_999_999_999_999, "it was sure"),
+            render::Line::new("  before the eye", 9_999_999, 0, "a ".repeat(60)),
+        ];
+        for line in plan_panel(&plan, 36) {
+            let width: usize = line.spans.iter().map(|s| s.text.chars().count()).sum();
+            assert!(width <= 36, "{line:?}");
+        }
+        for line in plan_text(&plan, 80).lines() {
+            assert!(line.chars().count() <= 80, "{line}");
+        }
+    }
+}
