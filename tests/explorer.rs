@@ -10,9 +10,9 @@ use ratatui::buffer::Buffer;
 use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 use ratatui::layout::Rect;
 use rayscope::explorer::action::{Action, markdown};
-use rayscope::explorer::{Explorer, Options, Waker};
+use rayscope::explorer::{Explorer, Options, Request, Waker};
 use rayscope::geometry::Ray;
-use rayscope::lab::Alone;
+use rayscope::lab::{Alone, HEADER};
 use rayscope::method::{Class, Method};
 use rayscope::render::{ColorDepth, Style};
 use rayscope::scene::{PixelShape, Rays, Scene, Size};
@@ -386,6 +386,15 @@ fn moving_on_keeps_the_step_and_marks_what_changed() {
     person.shows("= 301");
     person.shows("[C*]");
     person.shows(" A ");
+    // A miss has no roots, and other methods have other steps before the same one.
+    person.commands("step near").shows("step 15 of 23: near");
+    person.commands("cursor 20 35").presses("m");
+    person.commands("cursor 20 20").shows(": near");
+    person
+        .commands("step verdict")
+        .commands("cursor 20 35")
+        .shows(": verdict");
+    person.commands("step D").presses("M").shows(": Δ");
 }
 
 #[test]
@@ -629,6 +638,59 @@ fn a_dial_that_scenes_do_not_have_is_named_and_so_is_one_that_goes_no_further() 
 }
 
 #[test]
+fn a_pixel_is_copied_as_a_row_and_as_test_cases_and_shown() {
+    let mut person = Person::opens("seed", 80, 24);
+    let copied = |person: &mut Person| match person.explorer.take_request() {
+        Some(Request::Copy(text)) => text,
+        other => panic!("{other:?}"),
+    };
+    person.presses("&").shows("a row for rayscope grade");
+    let row = "20,20,0,0,0,1,20,20,20,10,secant,10,30";
+    person.shows(row);
+    assert_eq!(copied(&mut person), format!("{HEADER}\n{row}\n"));
+    person.presses("&").shows("a test case in C");
+    person.shows("const float expected_roots[2] = {0x1.4p+3f, 0x1.ep+4f};");
+    assert!(copied(&mut person).contains("const float r = 0x1.4p+3f;"));
+    person
+        .presses("&")
+        .shows("let [r] = [0x41200000].map(f32::from_bits);");
+    copied(&mut person);
+    person.presses("esc").shows("ray of pixel");
+    person
+        .commands("cursor 0 0")
+        .commands("copy c")
+        .shows("\"miss\"");
+    assert!(!copied(&mut person).contains("roots"));
+    person
+        .presses("esc")
+        .commands("copy nonsense")
+        .shows("row, c, rust");
+}
+
+#[test]
+fn pixels_are_collected_in_a_file_that_is_one_of_rows() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("hard.csv");
+    let mut person = Person::opens("seed", 160, 24);
+    let append = format!("append {}", path.to_str().unwrap());
+    person.commands(&append).shows("has 1 row now");
+    person
+        .commands("cursor 0 0")
+        .commands(&append)
+        .shows("has 2 rows now");
+    let text = fs::read_to_string(&path).unwrap();
+    let rows = [
+        HEADER,
+        "20,20,0,0,0,1,20,20,20,10,secant,10,30",
+        "0,0,0,0,0,1,20,20,20,10,miss,,",
+    ];
+    assert_eq!(text.lines().collect::<Vec<_>>(), rows);
+    fs::write(&path, "x,y\n1,2").unwrap();
+    person.commands(&append).shows("its first line is not");
+    assert_eq!(fs::read_to_string(&path).unwrap(), "x,y\n1,2");
+}
+
+#[test]
 fn the_guide_lists_the_keys_that_there_are() {
     hold_to_docs("docs/guide.md", "keys", &markdown());
 }
@@ -720,6 +782,162 @@ proptest! {
             let scene = person.explorer.scene();
             prop_assert!(scene.camera.check().is_ok());
             prop_assert!(scene.bodies.iter().all(|b| b.sphere.radius >= 0.0));
+        }
+    }
+}
+
+/// A move that can be taken back.
+#[derive(Debug, Clone, Copy)]
+enum Move {
+    /// To another step; with `.`, `,`, `<` or `>`.
+    Step(&'static str),
+    /// To the panel of that key.
+    Panel(&'static str),
+    /// The cursor by a key, and the key that moves it back.
+    Cursor(&'static str, &'static str),
+    /// The camera.
+    Camera(&'static str),
+    /// Another method or view, and the key that turns back.
+    Turn(&'static str, &'static str),
+}
+
+fn any_move() -> impl Strategy<Value = Move> {
+    prop::sample::select(vec![
+        Move::Step("."),
+        Move::Step("enter"),
+        Move::Step(","),
+        Move::Step("<"),
+        Move::Step(">"),
+        Move::Panel("1"),
+        Move::Panel("2"),
+        Move::Panel("3"),
+        Move::Panel("4"),
+        Move::Panel("5"),
+        Move::Panel("6"),
+        Move::Cursor("left", "right"),
+        Move::Cursor("right", "left"),
+        Move::Cursor("up", "down"),
+        Move::Cursor("J", "K"),
+        Move::Cursor("L", "H"),
+        Move::Camera("a"),
+        Move::Camera("w"),
+        Move::Camera("D"),
+        Move::Camera("e"),
+        Move::Camera("-"),
+        Move::Turn("m", "M"),
+        Move::Turn("V", "v"),
+    ])
+}
+
+impl Person {
+    /// The number and the name of the step in the title of its panel.
+    fn step(&mut self) -> (usize, String) {
+        let screen = self.screen();
+        let title = screen.split("─ step ").nth(1).expect("the steps");
+        let mut words = title.split(' ');
+        let number = words.next().and_then(|n| n.parse().ok());
+        let name = words.nth(2).expect("a name");
+        (number.expect("a number"), name.to_owned())
+    }
+
+    /// Makes a move, and tells which keys take it back.
+    fn makes(
+        &mut self,
+        a_move: Move,
+        panel: &mut &'static str,
+        chosen: &mut Option<String>,
+    ) -> String {
+        let place = |person: &Self| person.explorer.reading().expect("a reading").pixel;
+        match a_move {
+            Move::Step(key) => {
+                let was = *panel;
+                self.presses("2");
+                *panel = "2";
+                let (before, name) = self.step();
+                if chosen.as_ref().is_some_and(|chosen| *chosen != name) {
+                    // This one stands in for the chosen step, which this pixel has not: to go on from
+                    // it is a choice that no step back undoes.
+                    return format!("{before} {was}");
+                }
+                self.presses(key);
+                let (after, name) = self.step();
+                *chosen = Some(name);
+                match (before, after) {
+                    (before, after) if after == before + 1 => format!("- 2 , {was}"),
+                    (before, after) if after + 1 == before => format!("- 2 . {was}"),
+                    (before, _) => format!("{before} {was}"),
+                }
+            }
+            Move::Panel(key) => {
+                let back = format!("- {panel}");
+                *panel = key;
+                self.presses(key);
+                back
+            }
+            Move::Cursor(key, back) => {
+                let before = place(self);
+                self.presses(key);
+                let (after, far) = (place(self), key == key.to_uppercase());
+                let moved = before.0.abs_diff(after.0) + before.1.abs_diff(after.1);
+                // At the edge of the picture a move is a shorter one, or none.
+                let back = if far {
+                    back.to_lowercase()
+                } else {
+                    back.to_owned()
+                };
+                format!("- {panel} {}", vec![back; moved as usize].join(" "))
+            }
+            Move::Camera(key) => {
+                let before = self.explorer.scene().clone();
+                self.presses(key);
+                let undo = if *self.explorer.scene() == before {
+                    ""
+                } else {
+                    "u"
+                };
+                format!("- {panel} {undo}")
+            }
+            Move::Turn(key, back) => {
+                self.presses(key);
+                format!("- {panel} {back}")
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn stepping_back_restores_the_screen(
+        scene in prop::sample::select(vec!["seed", "trio", "inside", "far"]),
+        // Where the picture has to scroll, it stays where it was scrolled to.
+        size in prop::sample::select(vec![(80, 24), (130, 46), (160, 50)]),
+        moves in prop::collection::vec(any_move(), 1..24),
+    ) {
+        let mut person = Person::opens(scene, size.0, size.1);
+        let (mut panel, mut chosen) = ("1", None);
+        let mut ways_back = Vec::new();
+        for a_move in moves {
+            let screen = person.presses("esc").screen();
+            let was = panel;
+            let back = person.makes(a_move, &mut panel, &mut chosen);
+            ways_back.push((screen, back, was, a_move));
+        }
+        for (screen, back, was, a_move) in ways_back.into_iter().rev() {
+            let mut keys = back.split(' ');
+            match keys.next() {
+                Some("-") => {
+                    let keys: Vec<_> = keys.collect();
+                    person.presses(&keys.join(" "));
+                }
+                number => {
+                    person.presses("2").commands(&format!("step {}", number.expect("a number")));
+                    person.presses(was);
+                }
+            }
+            let found = person.presses("esc").screen();
+            prop_assert_eq!(&found, &screen, "after {:?} and back\n{}\nwas\n{}", a_move, found, screen);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What each action and each command does to the state.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::action::Action;
 use super::command::Command;
@@ -9,6 +9,7 @@ use super::mode::{Form, Mode, Purpose, Question};
 use super::motion;
 use super::panel::Panel;
 use super::{Explorer, Request};
+use crate::lab::CaseForm;
 use crate::method::Method;
 use crate::render::{Style, View};
 use crate::scene::{Aim, Camera};
@@ -111,6 +112,7 @@ impl Explorer {
             Action::NextDial => self.next_dial(),
             Action::TurnOn => self.turn_on(),
             Action::TurnBack => self.turn_back(),
+            Action::CopyCase => self.copy_case(CaseForm::Row),
 
             Action::TourForward => self.tour_forward(),
             Action::TourBack => self.tour_back(),
@@ -158,6 +160,8 @@ impl Explorer {
             Command::Style(style) => self.set_style(style),
             Command::View(view) => self.set_view(view),
             Command::Panel(panel) => self.panel = panel,
+            Command::Copy(form) => self.copy_case(form),
+            Command::Append(name) => self.append_case(Path::new(&name)),
             Command::Dial(dial, k) => self.dial_to(dial, k),
             Command::Step(name) => self.go_to_step_named(&name),
             Command::At(t) => self.scrubbed = Some(t),

@@ -252,6 +252,8 @@ actions! {
     TurnOn "turn-on" ["\\"] Laboratory;
     /// turn the dial back
     TurnBack "turn-back" ["|"] Laboratory;
+    /// copy this pixel as a row for `rayscope grade`; again: as a test case in C, in Rust
+    CopyCase "copy-case" ["&"] Laboratory;
 
     /// open the tour; go to its next page
     TourForward "tour-forward" ["f"] Tour;

@@ -1,6 +1,6 @@
 //! The command line that `:` opens: actions by name, and what takes an argument.
 
-use crate::lab::Dial;
+use crate::lab::{CaseForm, Dial};
 use crate::method::Method;
 use crate::render::{Style, View};
 use crate::scene::Builtin;
@@ -37,6 +37,10 @@ pub enum Command {
     Stride(f32),
     /// Show this panel.
     Panel(Panel),
+    /// Copy the pixel in this form.
+    Copy(CaseForm),
+    /// Append the pixel to this file of rows.
+    Append(String),
     /// Choose a dial, and turn it to 2^k.
     Dial(&'static Dial, Option<u32>),
     /// Go to the step of the derivation of that name or number.
@@ -74,6 +78,16 @@ pub const WITH_ARGUMENT: &[(&str, &str, &str)] = &[
         "dial",
         "NAME K",
         "turn the scene along this dial by 2^K; 0 takes it back",
+    ),
+    (
+        "copy",
+        "FORM",
+        "copy this pixel as a row, or as a test case: row, c, rust",
+    ),
+    (
+        "append",
+        "FILE",
+        "append this pixel to a CSV file for `rayscope grade`",
     ),
     ("step", "NAME", "go to the step of that name or number"),
     (
@@ -119,6 +133,8 @@ impl Command {
             "set" => set(rest),
             "stride" => positive(rest, "stride").map(Self::Stride),
             "panel" => choice(rest, "panel", Panel::ALL, Panel::name).map(Self::Panel),
+            "copy" => choice(rest, "copy", CaseForm::ALL, CaseForm::name).map(Self::Copy),
+            "append" => argument(rest, "append", "a file name").map(Self::Append),
             "dial" => dial(rest),
             "tour" => argument(rest, "tour", "a chapter's name or number").map(Self::Tour),
             "step" => argument(rest, "step", "a step's name or number").map(Self::Step),
@@ -268,6 +284,7 @@ pub fn complete(line: &str) -> Vec<String> {
         "style" => Style::ALL.iter().map(|s| s.name().to_owned()).collect(),
         "view" => View::ALL.iter().map(|v| v.name().to_owned()).collect(),
         "set" => Field::all_names(),
+        "copy" => CaseForm::ALL.iter().map(|f| f.name().to_owned()).collect(),
         "dial" => Dial::of_scenes().map(|d| d.name.to_owned()).collect(),
         "tour" => tour::builtin().iter().map(|c| c.name.clone()).collect(),
         "open" => {
@@ -275,7 +292,7 @@ pub fn complete(line: &str) -> Vec<String> {
             words.extend(super::files::starting_with(typed));
             words
         }
-        "save-as" => super::files::starting_with(typed),
+        "save-as" | "append" => super::files::starting_with(typed),
         _ => Vec::new(),
     };
     starting(words, &head, typed)

@@ -13,6 +13,7 @@ use super::layout::{self, LEAST};
 use super::mode::{Form, Message, Mode, Prompt};
 use super::theme::Theme;
 use crate::explain::{self, Glyphs, Line};
+use crate::lab::CaseForm;
 use crate::method::Place;
 use crate::render::Style;
 
@@ -127,6 +128,11 @@ impl Explorer {
             draw_help(&mut pen, body, scroll);
             return self.draw_footer(&mut pen, layout.footer);
         }
+        if let Mode::Case(form) = self.mode {
+            let body = layout.view.union(layout.panel).union(layout.strip);
+            draw_case(&mut pen, body, form, &self.case_lines(form));
+            return self.draw_footer(&mut pen, layout.footer);
+        }
         if self.board {
             let body = layout.view.union(layout.panel).union(layout.strip);
             self.draw_board(&mut pen, body);
@@ -204,6 +210,7 @@ impl Explorer {
         }
         let keys: &[(&str, &str)] = match self.mode {
             Mode::Help { .. } => &[("arrows", "scroll"), ("esc", "back")],
+            Mode::Case(_) => &[("&", "copy the next form"), ("esc", "back")],
             Mode::Form(Form { typing: None, .. }) => &[
                 ("arrows", "choose"),
                 ("enter", "type a value"),
@@ -467,6 +474,32 @@ fn help() -> Vec<(String, String)> {
 /// How many lines the help page has.
 pub(super) fn help_lines() -> usize {
     help().len()
+}
+
+/// What was copied, without a border: where the terminal does not let programs copy, it can be
+/// selected. A line that is too long goes on in the next.
+fn draw_case(pen: &mut Pen<'_>, area: Rect, form: CaseForm, lines: &[String]) {
+    let title = format!("Copied, where the terminal allows it: {}", form.title());
+    let mut y = area.y;
+    for line in explain::wrap(&title, area.width.into()) {
+        pen.text(area.x, y, area.width, &line, Theme::strong());
+        y += 1;
+    }
+    y += 1;
+    for line in lines {
+        let chars: Vec<char> = line.chars().collect();
+        for part in chars.chunks(usize::from(area.width).max(1)) {
+            if y < area.bottom() {
+                let part: String = part.iter().collect();
+                pen.text(area.x, y, area.width, &part, CellStyle::new());
+                y += 1;
+            }
+        }
+    }
+    let hint = ":append FILE adds the row to a file.";
+    if y + 1 < area.bottom() {
+        pen.text(area.x, y + 1, area.width, hint, Theme::faint());
+    }
 }
 
 fn draw_help(pen: &mut Pen<'_>, area: Rect, scroll: usize) {

@@ -7,6 +7,7 @@
 mod act;
 pub mod action;
 mod arrival;
+mod casing;
 mod command;
 mod dialing;
 mod document;
@@ -107,6 +108,9 @@ pub struct Explorer {
     panel: Panel,
     /// The step of the derivation that is shown.
     step_at: usize,
+    /// The name of the step that the person chose, and where it, or what stands in for it where there
+    /// is no such step, was last shown.
+    kept_step: Option<(String, usize)>,
     prediction: Prediction,
     /// One step is shown large, in the place of picture and panels.
     board: bool,
@@ -162,6 +166,7 @@ impl Explorer {
             scroll: 0,
             panel: Panel::default(),
             step_at: 0,
+            kept_step: None,
             prediction: Prediction::default(),
             board: false,
             scrubbed: None,

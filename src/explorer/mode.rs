@@ -12,12 +12,17 @@ use super::key::Key;
 use super::prompt::Line;
 use super::rescue;
 use super::touring::Tour;
+use crate::lab::CaseForm;
 
 /// What keys mean now.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Mode {
     Normal,
-    Help { scroll: usize },
+    Help {
+        scroll: usize,
+    },
+    /// A pixel to take away is shown in this form.
+    Case(CaseForm),
     Prompt(Prompt),
     Form(Form),
     Ask(Question),
@@ -134,11 +139,14 @@ impl Explorer {
                 }
                 if let Some(action) = Action::bound_to(key) {
                     self.act(action);
-                } else if !key.is("esc") {
+                } else if key.is("esc") {
+                    self.picture.changed.fill(false);
+                } else {
                     self.say("This key does nothing. ? shows the keys.");
                 }
             }
             Mode::Help { scroll } => self.press_in_help(key, scroll),
+            Mode::Case(form) => self.press_in_case(key, form),
             Mode::Prompt(prompt) => self.press_in_prompt(key, prompt),
             Mode::Form(form) => self.press_in_form(key, form),
             Mode::Ask(question) => self.answer(key, question),

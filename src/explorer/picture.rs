@@ -141,6 +141,7 @@ impl Explorer {
         };
         self.picture.changed = steps.iter().map(is_new).collect();
         self.picture.steps = steps;
+        self.keep_step(&before);
         self.prediction.revealed = false;
     }
 }

@@ -4,6 +4,7 @@
 
 mod alone;
 pub mod bench;
+mod case;
 pub mod dials;
 mod errors;
 pub mod families;
@@ -21,6 +22,7 @@ pub mod timing;
 mod turn;
 
 pub use alone::Alone;
+pub use case::{Case, CaseForm, HEADER};
 pub use dials::Dial;
 pub use errors::{
     Census, Checksum, Errors, Fault, Judgement, Percentiles, RootError, Worst, Wrong, judge,

@@ -37,6 +37,48 @@ fn a_person_opens_moves_reads_saves_and_quits() {
 }
 
 #[test]
+fn a_person_walks_the_whole_tour() {
+    let chapters = rayscope::explorer::tour::builtin();
+    let mut pty = Pty::explorer(Start::default().args(&["tour"]));
+    for (n, chapter) in (1..).zip(chapters.iter()) {
+        let (count, title, pages) = (chapters.len(), &chapter.title, chapter.pages.len());
+        for page in 1..=pages {
+            pty.waits_to_show(&format!("{n}/{count}: {title}, page {page}/{pages} "));
+            for number in numbers_of_the_tutorial(n, page) {
+                pty.waits_to_show(number);
+            }
+            pty.sends("f");
+        }
+    }
+    pty.waits_to_show("This was the last page.");
+    // Off the path, and back on it.
+    pty.sends("3\x1b[C\x1b[C");
+    pty.waits_to_show("slice through ray and centre");
+    pty.sends("r");
+    let (count, last) = (chapters.len(), &chapters[chapters.len() - 1]);
+    let pages = last.pages.len();
+    pty.waits_to_show(&format!(
+        "{count}/{count}: {}, page {pages}/{pages} ",
+        last.title
+    ));
+    pty.sends("q");
+    assert_eq!(pty.ends(), 0);
+    pty.is_restored();
+}
+
+/// What the tutorial prints and a page of the tour shows.
+const fn numbers_of_the_tutorial(chapter: u32, page: usize) -> &'static [&'static str] {
+    match (chapter, page) {
+        (1, 2) => &["2.21x² + 0.44x − 24.96 = 0", "220.84", "3.26", "−3.46"],
+        (1, 4) => &["(−3.46, −3.606)", "(3.26, 3.786)"],
+        (2, 1) => &["(2, 5, 7)", "(4, 10, 14)", "(6, 15, 21)", "(8, 20, 28)"],
+        (4, 1) => &["−40", "300", "400"],
+        (6, 1) => &["317", "++", "--"],
+        _ => &[],
+    }
+}
+
+#[test]
 fn a_terminal_that_can_not_draw_is_told_what_to_use() {
     for start in [
         Start::default().env("TERM", "dumb"),
