@@ -367,7 +367,7 @@ fn quitting_asks_only_if_something_would_be_lost() {
     assert_eq!(person.explorer.ended(), Some(0));
 
     let mut person = Person::opens("seed", 80, 24);
-    person.presses("x q q");
+    person.presses("x q D");
     assert_eq!(person.explorer.ended(), Some(0));
     let mut person = Person::opens("seed", 80, 24);
     person.presses("ctrl-c");
@@ -714,6 +714,49 @@ fn a_turned_dial_is_nothing_to_save_and_nothing_to_lose() {
     person.presses("esc u");
     assert!(!person.explorer.is_changed());
     assert_ne!(*person.explorer.scene(), own);
+}
+
+#[test]
+fn quitting_asks_about_work_and_not_about_a_look_at_a_built_in_scene() {
+    let mut looked = Person::opens("trio", 80, 24);
+    looked.presses("a w + q");
+    assert_eq!(looked.explorer.ended(), Some(0));
+    let mut worked = Person::opens("trio", 80, 24);
+    worked.presses("x q q q").shows("D quit without saving");
+    worked.presses("D");
+    assert_eq!(worked.explorer.ended(), Some(0));
+}
+
+#[test]
+fn the_mark_of_the_column_covers_no_word() {
+    let mut person = Person::opens("seed", 80, 24);
+    for _ in 0..40 {
+        person.presses("left");
+        let top = person.screen().lines().nth(1).unwrap_or_default().to_owned();
+        assert!(top.contains(" view 40×40 "), "{top}");
+    }
+}
+
+#[test]
+fn what_is_no_plain_file_is_not_replaced() {
+    let folder = tempfile::tempdir().unwrap();
+    let name = folder.path().to_str().unwrap();
+    let mut person = Person::opens("trio", 200, 24);
+    person
+        .commands(&format!("save-as {name}"))
+        .shows("no file that could be replaced");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn a_line_through_very_many_spheres_lists_the_first_of_them() {
+    let mut person = Person::opens("trio", 80, 24);
+    let mut scene = person.explorer.scene().clone();
+    let one = scene.bodies[0].clone();
+    scene.bodies = vec![one; 100_000];
+    let source = rayscope::scene::Source::Builtin(rayscope::scene::Builtin::Trio);
+    person.explorer = Explorer::new(scene, &source, Options::default());
+    person.presses("right left").shows("100000 spheres on this line");
 }
 
 #[test]

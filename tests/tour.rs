@@ -308,8 +308,9 @@ fn own_work_waits_behind_the_tour() {
     // Leaving the program asks in front of what would be lost.
     student.presses("q").shows("Unsaved changes.");
     assert_eq!(*student.explorer.scene(), own);
+    student.presses("q q q");
     assert_eq!(student.explorer.ended(), None);
-    student.presses("q");
+    student.presses("D");
     assert_eq!(student.explorer.ended(), Some(0));
 }
 

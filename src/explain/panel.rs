@@ -432,15 +432,24 @@ fn meeting_lines(reading: &Reading, shown: usize, digits: Digits) -> Vec<Line> {
             format!("{} spheres on this line", reading.meetings.len()),
         ),
     ];
-    for (rank, meeting) in reading.meetings.iter().enumerate() {
+    let place = reading.meetings.iter().position(|m| m.body == shown);
+    let last = place.map_or(MOST_MEETINGS, |place| MOST_MEETINGS.max(place + 1));
+    for (rank, meeting) in reading.meetings.iter().enumerate().take(last) {
         let spare = match rank.cmp(&3) {
             Ordering::Less => 1,
             _ => 2,
         };
         out.push(meeting_line(meeting, meeting.body == shown, spare, digits));
     }
+    let more = reading.meetings.len().saturating_sub(last);
+    if more > 0 {
+        out.push(Line::new(2).with(Role::Faint, format!(" and {more} more")));
+    }
     out
 }
+
+/// So many of the spheres on a line are listed at least; the list reaches to the one that is shown.
+const MOST_MEETINGS: usize = 100;
 
 fn meeting_line(meeting: &Meeting, shown: bool, spare: u8, digits: Digits) -> Line {
     let Solution { class, near, far } = meeting.solution;
@@ -462,13 +471,23 @@ fn meeting_line(meeting: &Meeting, shown: bool, spare: u8, digits: Digits) -> Li
 ///
 /// What still does not fit is cut at the bottom; the caller marks that it was.
 pub fn fit(mut lines: Vec<Line>, height: usize) -> Vec<Line> {
-    while lines.len() > height {
-        let Some(most) = lines.iter().map(|l| l.spare).max().filter(|&s| s > 0) else {
+    let most = lines.iter().map(|l| l.spare).max().unwrap_or(0);
+    for spare in (1..=most).rev() {
+        let excess = lines.len().saturating_sub(height);
+        if excess == 0 {
             break;
-        };
-        if let Some(last) = lines.iter().rposition(|l| l.spare == most) {
-            lines.remove(last);
         }
+        // Of those that are as spare, the last go first.
+        let alike = lines.iter().filter(|l| l.spare == spare).count();
+        let mut stay = alike.saturating_sub(excess);
+        lines.retain(|l| {
+            if l.spare != spare {
+                return true;
+            }
+            let stays = stay > 0;
+            stay = stay.saturating_sub(1);
+            stays
+        });
     }
     lines
 }

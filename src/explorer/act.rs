@@ -10,10 +10,11 @@ use super::motion;
 use super::panel::Panel;
 use super::theme::Palette;
 use super::{Explorer, Request};
+use crate::explain::{Digits, number};
 use crate::lab::CaseForm;
-use crate::method::Method;
+use crate::method::{Method, Precision};
 use crate::render::{ColorDepth, Style, View};
-use crate::scene::{Aim, Camera};
+use crate::scene::{Aim, Camera, Scene};
 
 /// Why something on the screen is as it is, where the person has said so.
 const CHOSEN_HERE: &str = "chosen here";
@@ -163,9 +164,10 @@ impl Explorer {
         match command {
             Command::Do(action) => self.act(action),
             Command::QuitNow => self.ended = Some(0),
-            Command::Open(name) if self.is_changed() => {
-                self.mode = Mode::Ask(Question::Open(name));
-            }
+            Command::Open(name) if self.is_worth_saving() => match Scene::open(&name) {
+                Ok(_) => self.mode = Mode::Ask(Question::Open(name)),
+                Err(e) => self.warn(e.to_string()),
+            },
             Command::Open(name) => self.open(&name),
             Command::SaveAs(name) => self.save_as(PathBuf::from(name)),
             Command::Method(method) => self.options.method = method,
@@ -349,7 +351,9 @@ impl Explorer {
             self.step = step;
         }
         let ratio = self.step / self.usual_step;
-        self.say(format!("One step is {} ({ratio}× the usual).", self.step));
+        let [step, ratio] = [self.step, ratio]
+            .map(|x| number(x.into(), Precision::Binary32, Digits::Significant(6)));
+        self.say(format!("One step is {step} ({ratio}× the usual)."));
     }
 
     pub(super) fn travel(&mut self, go: fn(&mut Document) -> bool, nothing: &str) {
@@ -364,9 +368,10 @@ impl Explorer {
 
 /// Whether what it does depends on the picture and the reading, which a change makes stale.
 fn acts_on_picture(action: Action) -> bool {
-    use Action::{Link, MakeTangent, NextOnLine, SelectShown};
+    use Action::{CopyCase, Link, MakeTangent, Measure, NextOnLine, SelectShown, TurnBack, TurnOn};
     let of_group = matches!(action.group(), Group::Cursor | Group::Steps);
-    of_group || matches!(action, Link | MakeTangent | NextOnLine | SelectShown)
+    let of_picture = matches!(action, CopyCase | Link | MakeTangent | Measure | NextOnLine);
+    of_group || of_picture || matches!(action, SelectShown | TurnBack | TurnOn)
 }
 
 /// The value `by` places after `now` in the ring of all.

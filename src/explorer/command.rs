@@ -127,6 +127,11 @@ impl Command {
         if let (true, Some(action)) = (rest.is_empty(), Action::by_name(name)) {
             return Ok(Self::Do(action));
         }
+        // A panel opens by its bare name, too.
+        let panel = Panel::ALL.into_iter().find(|panel| panel.name() == name);
+        if let (true, Some(panel)) = (rest.is_empty(), panel) {
+            return Ok(Self::Panel(panel));
+        }
         match name {
             "q" | "quit" if rest.is_empty() => Ok(Self::Do(Action::Quit)),
             "q!" | "quit!" if rest.is_empty() => Ok(Self::QuitNow),

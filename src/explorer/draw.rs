@@ -9,12 +9,12 @@ use super::action::{Action, FOOTER, Group};
 use super::command::WITH_ARGUMENT;
 use super::field::Field;
 use super::layout::{self, LEAST};
-use super::mode::{Form, Message, Mode, Prompt};
+use super::mode::{Form, Mode, Prompt};
 use super::theme::Theme;
 use super::{Explorer, Options};
 use crate::explain::{self, Glyphs, Line};
 use crate::lab::CaseForm;
-use crate::method::Place;
+use crate::method::{Place, Precision};
 use crate::render::Style;
 
 /// Writes text into cells: cut at the edge, spelt in the characters that there are.
@@ -67,12 +67,28 @@ impl Pen<'_> {
         for ((x, y), corner) in places.into_iter().zip(corners) {
             self.buffer.set_string(x, y, corner, style);
         }
-        let room = area.width.saturating_sub(4);
         for (y, text) in [(area.top(), title), (bottom, foot)] {
-            if !text.is_empty() && room > 4 {
-                self.text(area.x + 2, y, room, &format!(" {text} "), CellStyle::new());
-            }
+            self.border_text(area, y, text, None);
         }
+    }
+
+    /// Words in the border of `area`: on the left, or on the right if there they cover the mark in
+    /// column `mark`.
+    fn border_text(&mut self, area: Rect, y: u16, text: &str, mark: Option<u16>) {
+        let room = area.width.saturating_sub(4);
+        if text.is_empty() || room <= 4 {
+            return;
+        }
+        let text = format!(" {text} ");
+        let width = (text.width() as u16).min(room);
+        let (left, right) = (area.x + 2, area.right() - 2 - width);
+        let covers = |x: u16| mark.is_some_and(|mark| (x..x + width).contains(&mark));
+        let x = if covers(left) && !covers(right) {
+            right
+        } else {
+            left
+        };
+        self.text(x, y, width, &text, CellStyle::new());
     }
 
     /// Lines with roles, from the top of `area`.
@@ -202,16 +218,21 @@ impl Explorer {
 
     /// Keys, or a message, or a question; the place of the text cursor if something is typed here.
     fn draw_footer(&self, pen: &mut Pen<'_>, area: Rect) -> Option<Position> {
-        let (x, y, room) = (area.x + 1, area.y, area.width.saturating_sub(1));
+        let (x, y) = (area.x + 1, area.y);
         if let Mode::Prompt(prompt) = &self.mode {
             return Some(self.draw_prompt(pen, area, prompt));
         }
         if let Mode::Ask(question) = &self.mode {
-            pen.text(x, y, room, &question.text(), Theme::strong());
+            draw_message(pen, area, &question.text(), Theme::strong());
             return None;
         }
         if let Some(message) = &self.message {
-            draw_message(pen, area, message);
+            let style = if message.warning {
+                pen.theme.warning()
+            } else {
+                CellStyle::new()
+            };
+            draw_message(pen, area, &message.text, style);
             return None;
         }
         let keys: &[(&str, &str)] = match self.mode {
@@ -270,12 +291,14 @@ impl Explorer {
     /// The picture in its border; the place of the cursor's cell.
     fn draw_view(&self, pen: &mut Pen<'_>, area: Rect) -> Option<Position> {
         let size = self.size();
-        let step = format!("step {}", self.step);
+        let step = f64::from(self.step);
+        let step = explain::number(step, Precision::Binary32, explain::Digits::Significant(6));
+        let step = format!("step {step}");
         let foot = match self.selected {
             Some(at) => format!("sphere {} selected  {step}", at + 1),
             None => step,
         };
-        pen.frame(area, &format!("view {size}"), &foot);
+        pen.frame(area, "", &foot);
         let image = &self.picture.image;
         let (left, top) = self.picture.offset;
         let place = layout::centered(area, image, (left, top));
@@ -292,18 +315,24 @@ impl Explorer {
             }
         }
         self.mark_wrong(pen, (x0, y0), shown);
-        self.mark_edges(pen, area, shown);
+        let end_of_foot = area.x + 4 + foot.width() as u16;
+        self.mark_edges(pen, area, shown, end_of_foot);
         let (col, row) = self
             .options
             .style
             .cell_of_pixel(self.cursor.0, self.cursor.1);
-        let (col, row) = (col.checked_sub(left)?, row.checked_sub(top)?);
-        if col >= shown.0.into() || row >= shown.1.into() {
-            return None;
+        let at = (col.checked_sub(left), row.checked_sub(top));
+        let at = match at {
+            (Some(col), Some(row)) if col < shown.0.into() && row < shown.1.into() => {
+                Some(Position::new(x0 + col as u16, y0 + row as u16))
+            }
+            _ => None,
+        };
+        pen.border_text(area, area.y, &format!("view {size}"), at.map(|at| at.x));
+        if let Some(at) = at {
+            self.mark_cursor(pen, area, at);
         }
-        let at = Position::new(x0 + col as u16, y0 + row as u16);
-        self.mark_cursor(pen, area, at);
-        Some(at)
+        at
     }
 
     /// A mark on each cell with a pixel that the method gets wrong, while a dial is looked at.
@@ -322,17 +351,22 @@ impl Explorer {
     }
 
     /// Arrows in the border where the picture goes on.
-    fn mark_edges(&self, pen: &mut Pen<'_>, area: Rect, shown: (u16, u16)) {
+    fn mark_edges(&self, pen: &mut Pen<'_>, area: Rect, shown: (u16, u16), end_of_foot: u16) {
         let image = &self.picture.image;
         let (left, top) = self.picture.offset;
         let middle = Position::new(area.x + area.width / 2, area.y + area.height / 2);
         let (right, bottom) = (area.right().max(1) - 1, area.bottom().max(1) - 1);
+        let below = if middle.x < end_of_foot {
+            right.saturating_sub(1)
+        } else {
+            middle.x
+        };
         let style = pen.theme.mark();
         for (more, x, y, arrow) in [
             (left > 0, area.x, middle.y, "←"),
             (left + u32::from(shown.0) < image.cols, right, middle.y, "→"),
             (top > 0, middle.x, area.y, "↑"),
-            (top + u32::from(shown.1) < image.rows, middle.x, bottom, "↓"),
+            (top + u32::from(shown.1) < image.rows, below, bottom, "↓"),
         ] {
             if more {
                 pen.text(x, y, 1, arrow, style);
@@ -434,14 +468,9 @@ fn too_small(pen: &mut Pen<'_>, area: Rect) {
 }
 
 /// A message over the footer; one that is too long for a line covers the lines above.
-fn draw_message(pen: &mut Pen<'_>, footer: Rect, message: &Message) {
-    let style = if message.warning {
-        pen.theme.warning()
-    } else {
-        CellStyle::new()
-    };
+fn draw_message(pen: &mut Pen<'_>, footer: Rect, text: &str, style: CellStyle) {
     let room = footer.width.saturating_sub(2);
-    let lines = explain::wrap(&pen.glyphs.spell(&message.text), room.into());
+    let lines = explain::wrap(&pen.glyphs.spell(text), room.into());
     let count = (lines.len() as u16).min(footer.y);
     let top = footer.bottom() - count;
     for (y, line) in (top..footer.bottom()).zip(&lines) {

@@ -53,6 +53,11 @@ pub fn save(path: &Path, text: &str) -> Result<Stamp, String> {
 fn write(path: &Path, text: &str) -> std::io::Result<()> {
     // A link is kept: what it points at is replaced.
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    if fs::metadata(&target).is_ok_and(|there| !there.is_file()) {
+        return Err(std::io::Error::other(
+            "it is no file that could be replaced",
+        ));
+    }
     let folder = target.parent().filter(|p| !p.as_os_str().is_empty());
     let mut builder = tempfile::Builder::new();
     builder.prefix(".rayscope-");
@@ -62,7 +67,10 @@ fn write(path: &Path, text: &str) -> std::io::Result<()> {
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    let mut file = builder.tempfile_in(folder.unwrap_or(Path::new(".")))?;
+    // The name of a file that could not be made says nothing to the person.
+    let mut file = builder
+        .tempfile_in(folder.unwrap_or(Path::new(".")))
+        .map_err(|e| std::io::Error::from(e.kind()))?;
     file.write_all(text.as_bytes())?;
     if let Ok(old) = fs::metadata(&target) {
         file.as_file().set_permissions(old.permissions())?;

@@ -256,6 +256,14 @@ impl Explorer {
         self.document.is_changed() || self.tour.as_ref().is_some_and(Tour::hides_changes)
     }
 
+    /// Whether there are changes that somebody would miss: all but another look at a built-in scene,
+    /// which is there for looking at.
+    fn is_worth_saving(&self) -> bool {
+        let built_in = matches!(self.place, FilePlace::Builtin(_)) && self.tour.is_none();
+        let only_looked = built_in && self.document.ground().bodies == self.opened.bodies;
+        self.is_changed() && !only_looked
+    }
+
     /// Whether the person wants to use the mouse here rather than to select text.
     pub const fn wants_mouse(&self) -> bool {
         self.mouse

@@ -83,17 +83,17 @@ impl Question {
     pub(super) fn text(&self) -> String {
         match self {
             Self::Quit => {
-                "Unsaved changes.  s save and quit   q quit without saving   esc stay".into()
+                "Unsaved changes.  s save and quit   D quit without saving   esc stay".into()
             }
             Self::Open(name) => {
                 format!("Unsaved changes.  o open {name} without saving   esc stay")
             }
             Self::Recover { age, .. } => format!(
-                "Unsaved work of {} ago was kept.  o open it   d delete it   esc later",
+                "Unsaved work of {} ago was kept.  o open it   D delete it   any other key: later",
                 rescue::words(*age)
             ),
             Self::Tour => {
-                "Unsaved changes.  s save   t tour: they wait behind it   esc stay".into()
+                "Unsaved changes.  s save   t start the tour: your scene waits, ctrl-t comes back   esc stay".into()
             }
             Self::Overwrite { path, why } => {
                 format!("{} {why}.  o overwrite   esc keep it", path.display())
@@ -157,16 +157,17 @@ impl Explorer {
 
     /// Ends the program, or asks first if that would lose something.
     pub(super) fn quit(&mut self) {
-        if self.is_changed() {
+        if self.is_worth_saving() {
             self.ask_before_quitting();
         } else {
             self.ended = Some(0);
         }
     }
 
-    /// Ctrl-C ends the program as SIGINT would; with unsaved changes it asks first, once.
+    /// Ctrl-C ends the program as SIGINT would; with unsaved changes it asks first, once, and if it ends
+    /// all the same they are kept as when the terminal is lost.
     pub(super) fn interrupt(&mut self) {
-        if self.is_changed() && self.mode != Mode::Ask(Question::Quit) {
+        if self.is_worth_saving() && self.mode != Mode::Ask(Question::Quit) {
             self.ask_before_quitting();
         } else {
             self.ended = Some(130);
@@ -288,10 +289,19 @@ impl Explorer {
                     self.ended = Some(0);
                 }
             }
-            Question::Quit if key.is("q") => self.ended = Some(0),
+            // Another key than the one that asked: it may be held down.
+            Question::Quit if key.is("D") => self.ended = Some(0),
             Question::Open(name) if key.is("o") => self.open(&name),
             Question::Recover { path, .. } if key.is("o") => self.recover(&path),
-            Question::Recover { path, .. } if key.is("d") => self.discard(&path),
+            Question::Recover { path, .. } if key.is("D") => self.discard(&path),
+            Question::Recover { .. } => {
+                self.say(
+                    "The unsaved work stays where it is; it is offered again at the next start.",
+                );
+                if !key.is("esc") {
+                    self.press(key);
+                }
+            }
             Question::Tour if key.is("t") => self.visit_unsaved(),
             Question::Tour if key.is("s") => self.save(),
             Question::Overwrite { path, .. } if key.is("o") => self.write(&path),

@@ -30,9 +30,10 @@ impl Line {
         self.at
     }
 
-    /// Types text; whatever is no printable character is left out.
+    /// Types the first line of a text; whatever is no printable character is left out.
     pub fn insert(&mut self, text: &str) {
-        for c in text.chars().filter(|c| !c.is_control()) {
+        let first = text.split(['\n', '\r']).next().unwrap_or_default();
+        for c in first.chars().filter(|c| !c.is_control()) {
             if self.chars.len() < LONGEST {
                 self.chars.insert(self.at, c);
                 self.at += 1;

@@ -47,7 +47,12 @@ impl Explorer {
         if !self.is_changed() {
             return Ok(None);
         }
-        let given_up = self.ended.is_some();
+        let given_up = match self.ended {
+            // Who interrupts has not been asked, or not answered.
+            Some(130) => !self.is_worth_saving(),
+            Some(_) => true,
+            None => false,
+        };
         let text = self.document.ground().to_toml();
         let Some(rescue) = &mut self.rescue else {
             return Ok(None);
@@ -241,7 +246,7 @@ mod tests {
         assert_eq!(files(folder), 2);
 
         let mut given_up = opened(folder, "trio");
-        press(&mut given_up, "oqq");
+        press(&mut given_up, "oqqD");
         assert_eq!(given_up.ended(), Some(0));
         assert_eq!(given_up.finish(), Ok(None));
         assert_eq!(files(folder), 1);
@@ -256,6 +261,41 @@ mod tests {
         saved.save_as(folder.join("saved.txt"));
         assert!(!saved.is_changed());
         assert_eq!(files(folder), 1, "the saved file alone");
+    }
+
+    #[test]
+    fn a_key_that_is_no_answer_means_later_and_does_what_it_does() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        let mut lost = opened(folder, "trio");
+        press(&mut lost, "x");
+        lost.finish().unwrap();
+        let mut later = opened(folder, "trio");
+        press(&mut later, "d");
+        assert_eq!(later.mode, Mode::Normal);
+        assert_ne!(later.scene().camera, later.opened.camera);
+        assert_eq!(files(folder), 1, "d orbits, and deletes nothing");
+        let mut deleted = opened(folder, "trio");
+        press(&mut deleted, "D");
+        assert_eq!(files(folder), 0);
+    }
+
+    #[test]
+    fn an_interrupt_keeps_what_q_would_have_asked_about() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        let interrupt = KeyEvent::new(KeyCode::Char('c'), KeyModifiers::CONTROL);
+        for (keys, kept) in [("x", 1), ("d", 0)] {
+            let mut explorer = opened(folder, "trio");
+            press(&mut explorer, keys);
+            explorer.update(&Event::Key(interrupt));
+            explorer.update(&Event::Key(interrupt));
+            assert_eq!(explorer.ended(), Some(130));
+            assert_eq!(explorer.finish().unwrap().iter().count(), kept, "{keys}");
+            fs::read_dir(folder)
+                .unwrap()
+                .for_each(|file| fs::remove_file(file.unwrap().path()).unwrap());
+        }
     }
 
     #[test]

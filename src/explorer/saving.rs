@@ -89,7 +89,7 @@ impl Explorer {
         let own = matches!(&self.place, FilePlace::File(stamp) if stamp.path() == path);
         if own {
             self.save();
-        } else if path.exists() {
+        } else if path.is_file() {
             let why = "exists already";
             self.mode = Mode::Ask(Question::Overwrite { path, why });
         } else {
