@@ -25,8 +25,21 @@ impl Explorer {
             return;
         };
         let room = text_room(area);
+        let mut left_out = 0;
         let (title, lines) = match panel {
-            Panel::Quadratic => self.quadratic_panel(reading, room),
+            Panel::Quadratic => {
+                let (title, all) = self.quadratic_panel(reading, room);
+                // Whoever scrolls wants to see what there was no room for.
+                if panel == self.panel && self.scroll > 0 {
+                    (title, all)
+                } else {
+                    let written = |lines: &[Line]| lines.iter().filter(|l| l.width() > 0).count();
+                    let before = written(&all);
+                    let lines = explain::fit(all, room.height.into());
+                    left_out = before - written(&lines);
+                    (title, lines)
+                }
+            }
             Panel::Steps => self.steps_panel(room),
             Panel::Slice | Panel::Curve => self.figure_panel(panel, reading, room),
             Panel::Bits => self.bits_panel(room),
@@ -46,6 +59,12 @@ impl Explorer {
             0
         };
         let foot = match (scroll, hidden - scroll) {
+            (0, below) if below + left_out > 0 && panel == Panel::Quadratic => {
+                match below + left_out {
+                    1 => "1 more line: pagedown".to_owned(),
+                    more => format!("{more} more lines: pagedown"),
+                }
+            }
             (0, 0) => self.panel_foot(panel),
             (_, 0) => format!("{scroll} lines above: pageup"),
             (_, below) => format!("{below} lines below: pagedown"),
@@ -74,8 +93,7 @@ impl Explorer {
     fn quadratic_panel(&self, reading: &Reading, room: Rect) -> (String, Vec<Line>) {
         let (x, y) = reading.pixel;
         let lines = explain::lines(reading, room.width.into(), self.digits());
-        let title = format!("ray of pixel ({x}, {y})");
-        (title, explain::fit(lines, room.height.into()))
+        (format!("ray of pixel ({x}, {y})"), lines)
     }
 
     /// The step, and under it the list of all steps, which always stays.
