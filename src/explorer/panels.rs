@@ -21,36 +21,18 @@ impl Explorer {
     }
 
     fn draw_panel(&self, pen: &mut Pen<'_>, panel: Panel, area: Rect) {
-        let Some(reading) = &self.picture.reading else {
+        let room = text_room(area);
+        let Some((title, mut lines)) = self.panel_text(panel, room) else {
             return;
         };
-        let room = text_room(area);
         let mut left_out = 0;
-        let (title, lines) = match panel {
-            Panel::Quadratic => {
-                let (title, all) = self.quadratic_panel(reading, room);
-                // Whoever scrolls wants to see what there was no room for.
-                if panel == self.panel && self.scroll > 0 {
-                    (title, all)
-                } else {
-                    let written = |lines: &[Line]| lines.iter().filter(|l| l.width() > 0).count();
-                    let before = written(&all);
-                    let lines = explain::fit(all, room.height.into());
-                    left_out = before - written(&lines);
-                    (title, lines)
-                }
-            }
-            Panel::Steps => self.steps_panel(room),
-            Panel::Slice | Panel::Curve => self.figure_panel(panel, reading, room),
-            Panel::Bits => self.bits_panel(room),
-            Panel::Compare => self.compare_panel(reading, room),
-            Panel::Error => self.error_panel(room),
-            Panel::Plan => self.plan_panel(room),
-            Panel::Dial => (
-                format!("dial: {}", self.dialing.dial.name),
-                self.dial_lines(room.width.into(), room.height.into()),
-            ),
-        };
+        // Whoever scrolls wants to see what there was no room for.
+        if panel == Panel::Quadratic && (panel != self.panel || self.scroll == 0) {
+            let written = |lines: &[Line]| lines.iter().filter(|l| l.width() > 0).count();
+            let before = written(&lines);
+            lines = explain::fit(lines, room.height.into());
+            left_out = before - written(&lines);
+        }
         // Only the panel that the person asked for scrolls.
         let hidden = lines.len().saturating_sub(room.height.into());
         let scroll = if panel == self.panel {
@@ -71,6 +53,24 @@ impl Explorer {
         };
         pen.frame(area, &title, &foot);
         pen.lines(room, &lines[scroll..]);
+    }
+
+    /// The title of a panel and its lines, laid out for `room`.
+    pub(super) fn panel_text(&self, panel: Panel, room: Rect) -> Option<(String, Vec<Line>)> {
+        let reading = self.picture.reading.as_ref()?;
+        Some(match panel {
+            Panel::Quadratic => self.quadratic_panel(reading, room),
+            Panel::Steps => self.steps_panel(room),
+            Panel::Slice | Panel::Curve => self.figure_panel(panel, reading, room),
+            Panel::Bits => self.bits_panel(room),
+            Panel::Compare => self.compare_panel(reading, room),
+            Panel::Error => self.error_panel(room),
+            Panel::Plan => self.plan_panel(room),
+            Panel::Dial => (
+                format!("dial: {}", self.dialing.dial.name),
+                self.dial_lines(room.width.into(), room.height.into()),
+            ),
+        })
     }
 
     fn panel_foot(&self, panel: Panel) -> String {

@@ -76,6 +76,23 @@ impl Frame {
         self.nearest.trim(&self.field);
     }
 
+    /// How many spheres can be seen, were it not for others.
+    pub(super) fn bound_certified(&mut self, scene: &Scene, rays: &Rays) -> usize {
+        let projector = Projector::new(rays);
+        let mut seen = 0;
+        for chunk in scene.bodies.chunks(BLOCK) {
+            let block = &mut self.block;
+            simd::dispatch(Bounding {
+                projector: &projector,
+                chunk,
+                block,
+            });
+            let is_seen = |&i: &usize| !self.block.bounds(i).is_empty();
+            seen += (0..chunk.len()).filter(is_seen).count();
+        }
+        seen
+    }
+
     /// Asks again for the nearest hits within `part`.
     pub(super) fn find_nearest_within(&mut self, scene: &Scene, rays: &Rays, part: Bounds) {
         self.nearest.reopen(&self.field, part);
@@ -150,6 +167,20 @@ impl Frame {
                 }
             }
         }
+    }
+}
+
+/// Bounds the spheres of a block.
+struct Bounding<'a> {
+    projector: &'a Projector,
+    chunk: &'a [Body],
+    block: &'a mut Block,
+}
+
+impl Kernel for Bounding<'_> {
+    #[inline(always)]
+    fn run(self) {
+        self.projector.bound(self.chunk, self.block);
     }
 }
 
