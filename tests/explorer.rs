@@ -7,8 +7,11 @@ use std::time::{Duration, Instant};
 
 use proptest::prelude::*;
 use ratatui::buffer::Buffer;
-use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
+use ratatui::crossterm::event::{
+    Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
+};
 use ratatui::layout::Rect;
+use ratatui::style::Color;
 use rayscope::explorer::action::{Action, markdown};
 use rayscope::explorer::{Explorer, Options, Request, Waker};
 use rayscope::geometry::Ray;
@@ -252,6 +255,103 @@ fn a_typed_number_is_held_to_what_a_scene_file_may_say() {
         .shows("expected a number within");
     person.commands("set look_at.z 0").shows("look_at");
     person.commands("set nonsense 1").shows("no key");
+}
+
+#[test]
+fn it_does_not_matter_how_many_keys_come_before_a_drawing() {
+    for keys in [
+        "c T",
+        "tab delete T space ;",
+        "right down T",
+        "b right shift-down",
+        "d d t right t",
+        "tab i T ; space",
+        "enter . . d . > ,",
+        "P enter . + . = esc",
+    ] {
+        let mut slow = Person::opens("trio", 80, 24);
+        let mut fast = Person::opens("trio", 80, 24);
+        slow.presses(keys);
+        for key in keys.split_whitespace() {
+            fast.explorer.update(&key_event(key));
+        }
+        fast.screen();
+        assert_eq!(slow.explorer.scene(), fast.explorer.scene(), "{keys}");
+        assert_eq!(slow.explorer.cursor(), fast.explorer.cursor(), "{keys}");
+        assert_eq!(slow.screen(), fast.screen(), "{keys}");
+    }
+}
+
+#[test]
+fn colours_and_theme_change_by_a_key_and_help_says_why_they_are_so() {
+    let mut person = Person::opens("trio", 80, 24);
+    person
+        .presses("?")
+        .shows("# colours            256 (the usual)");
+    person.presses("esc # ?").shows("24 bits (chosen here)");
+    person.presses("esc @ ?").shows("light (chosen here)");
+    person.presses("esc").commands("theme monochrome");
+    person
+        .commands("color 16")
+        .shows("the theme monochrome uses none");
+    let mut buffer = Buffer::empty(Rect::new(0, 0, 80, 24));
+    person.explorer.prepare(80, 24);
+    person.explorer.draw(&mut buffer);
+    for cell in &buffer.content {
+        assert_eq!((cell.fg, cell.bg), (Color::Reset, Color::Reset));
+    }
+    person
+        .commands("theme pink")
+        .shows("expected one of dark, light, high-contrast");
+}
+
+#[test]
+fn the_mouse_is_heeded_once_it_is_asked_for() {
+    let mouse = |kind, column, row| {
+        let modifiers = KeyModifiers::NONE;
+        Event::Mouse(MouseEvent {
+            kind,
+            column,
+            row,
+            modifiers,
+        })
+    };
+    let click = |column, row| mouse(MouseEventKind::Down(MouseButton::Left), column, row);
+    let mut person = Person::opens("seed", 80, 24);
+    let before = person.explorer.cursor();
+    assert!(!person.explorer.update(&click(1, 2)));
+    assert_eq!(person.explorer.cursor(), before);
+
+    person.presses("$");
+    assert!(person.explorer.wants_mouse());
+    assert!(
+        person.explorer.update(&click(1, 2)),
+        "the cell at the top left"
+    );
+    assert_eq!(person.explorer.cursor(), (0, 0));
+    person.explorer.update(&click(31, 13));
+    assert_eq!(person.explorer.cursor(), (30, 22));
+    for outside in [(0, 0), (41, 5), (60, 10), (5, 23), (79, 23)] {
+        person.explorer.update(&click(outside.0, outside.1));
+        assert_eq!(
+            person.explorer.cursor(),
+            (30, 22),
+            "{outside:?} is no pixel"
+        );
+    }
+    let window = |person: &Person| person.explorer.scene().camera.projection;
+    let seen = window(&person);
+    person
+        .explorer
+        .update(&mouse(MouseEventKind::ScrollUp, 5, 5));
+    assert_ne!(window(&person), seen);
+    person.presses("u ?");
+    person
+        .explorer
+        .update(&mouse(MouseEventKind::ScrollDown, 5, 5));
+    assert_eq!(window(&person), seen, "the wheel scrolls the help page");
+    person.presses("esc $");
+    assert!(!person.explorer.wants_mouse());
 }
 
 #[test]
@@ -730,6 +830,8 @@ fn hold_to_docs(page: &str, name: &str, text: &str) {
 #[derive(Debug, Clone)]
 enum Deed {
     Press(usize),
+    /// Several keys before the next look at the screen.
+    Rush(Vec<usize>),
     Type(char),
     Special(&'static str),
     Resize(u16, u16),
@@ -741,7 +843,8 @@ fn deed() -> impl Strategy<Value = Deed> {
     // the walk early. They have tests of their own.
     let keys = 0..Action::ALL.len();
     prop_oneof![
-        8 => keys.prop_map(Deed::Press),
+        8 => keys.clone().prop_map(Deed::Press),
+        4 => prop::collection::vec(keys, 2..8).prop_map(Deed::Rush),
         2 => any::<char>().prop_map(Deed::Type),
         2 => prop::sample::select(vec!["enter", "esc", "tab", "backspace", "up", "down"])
             .prop_map(Deed::Special),
@@ -765,6 +868,14 @@ proptest! {
                     let action = Action::ALL[at];
                     if let (false, Some(key)) = (writes(action), action.keys().first()) {
                         person.presses(key);
+                    }
+                }
+                Deed::Rush(all) => {
+                    let all = all.into_iter().map(|at| Action::ALL[at]);
+                    for action in all.filter(|&a| !writes(a)) {
+                        if let Some(key) = action.keys().first() {
+                            person.explorer.update(&key_event(key));
+                        }
                     }
                 }
                 Deed::Type(c) => {
