@@ -22,9 +22,17 @@ impl Explorer {
 
     fn draw_panel(&self, pen: &mut Pen<'_>, panel: Panel, area: Rect) {
         let room = text_room(area);
-        let Some((title, lines)) = self.panel_text(panel, room) else {
+        let Some((title, mut lines)) = self.panel_text(panel, room) else {
             return;
         };
+        let mut left_out = 0;
+        // Whoever scrolls wants to see what there was no room for.
+        if panel == Panel::Quadratic && (panel != self.panel || self.scroll == 0) {
+            let written = |lines: &[Line]| lines.iter().filter(|l| l.width() > 0).count();
+            let before = written(&lines);
+            lines = explain::fit(lines, room.height.into());
+            left_out = before - written(&lines);
+        }
         // Only the panel that the person asked for scrolls.
         let hidden = lines.len().saturating_sub(room.height.into());
         let scroll = if panel == self.panel {
@@ -33,6 +41,12 @@ impl Explorer {
             0
         };
         let foot = match (scroll, hidden - scroll) {
+            (0, below) if below + left_out > 0 && panel == Panel::Quadratic => {
+                match below + left_out {
+                    1 => "1 more line: pagedown".to_owned(),
+                    more => format!("{more} more lines: pagedown"),
+                }
+            }
             (0, 0) => self.panel_foot(panel),
             (_, 0) => format!("{scroll} lines above: pageup"),
             (_, below) => format!("{below} lines below: pagedown"),
@@ -79,8 +93,7 @@ impl Explorer {
     fn quadratic_panel(&self, reading: &Reading, room: Rect) -> (String, Vec<Line>) {
         let (x, y) = reading.pixel;
         let lines = explain::lines(reading, room.width.into(), self.digits());
-        let title = format!("ray of pixel ({x}, {y})");
-        (title, explain::fit(lines, room.height.into()))
+        (format!("ray of pixel ({x}, {y})"), lines)
     }
 
     /// The step, and under it the list of all steps, which always stays.
