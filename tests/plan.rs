@@ -275,7 +275,7 @@ fn nothing_is_asked_while_nothing_changes_and_little_when_one_sphere_moves() {
     assert!(moved.kept > all - all / 10, "{moved:?}");
     assert!(10 * moved.tested < whole.tested, "{moved:?} {whole:?}");
     assert!(10 * moved.asked < whole.asked);
-    let [drawn, changed] = pair.drawn.plan(false);
+    let [drawn, changed] = pair.drawn.plan();
     assert!(drawn.kept < drawn.left_out / 10);
     assert!(changed.kept <= drawn.kept);
 }

@@ -192,12 +192,19 @@ impl Explorer {
         (title, lines)
     }
 
-    /// What the picture on the screen needed, of whatever frame it is.
+    /// What the picture on the screen needed when it was made or mended, and whether that was now.
     fn plan_panel(&self, room: Rect) -> (String, Vec<Line>) {
-        let plan = self.picture.plan();
+        let plan = self.picture.frame.plan();
+        let frame = if self.picture.rests {
+            "This frame: the picture rests."
+        } else if plan.counts().kept > 0 {
+            "This frame: the picture mended."
+        } else {
+            "This frame: a new picture."
+        };
         let title = format!("plan: {} {}", plan.method(), plan.view().name());
         let mut lines = plan.lines();
-        lines.extend(self.picture.plan_of_cells());
+        lines.extend(self.picture.image.plan());
         lines.push(render::Line::new(
             "cursor's ray",
             self.scene().bodies.len() as u64,
@@ -206,13 +213,13 @@ impl Explorer {
         ));
         if let Some([sent, all]) = self.sent {
             lines.push(render::Line::new(
-                "bytes, last frame",
+                "bytes sent",
                 sent,
                 all.saturating_sub(sent),
-                "cells that the terminal shows already are not sent; left out is what is spared against the largest frame so far",
+                "by the frame before this one: cells that the terminal shows already are not sent; left out is what the largest frame so far took more",
             ));
         }
-        (title, explain::plan_panel(&lines, room.width.into()))
+        (title, explain::plan_panel(frame, &lines, room.width.into()))
     }
 
     /// One step as large as the screen allows; its answer hidden until the key.

@@ -77,10 +77,14 @@ impl Bounds {
         }
     }
 
-    /// Whether the two have no pixel in common.
+    /// Whether the two have no pixel in common, if `other` has any.
     #[inline(always)]
+    #[expect(clippy::needless_bitwise_bool, reason = "one branch for all")]
     pub(super) const fn is_apart_from(self, other: Self) -> bool {
-        self.within(other).is_empty()
+        (self.left > other.right)
+            | (self.right < other.left)
+            | (self.top > other.bottom)
+            | (self.bottom < other.top)
     }
 
     /// The pixels that the two have in common.

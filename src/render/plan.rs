@@ -217,19 +217,6 @@ impl Plan {
         self.light
     }
 
-    /// The plan of a frame for which nothing of this picture had to be made anew.
-    #[must_use]
-    pub fn at_rest(&self) -> Self {
-        let counts = Counts {
-            kept: self.size.area() as u64,
-            ..Counts::default()
-        };
-        Self {
-            counts,
-            ..self.clone()
-        }
-    }
-
     /// What the frame came to.
     pub const fn counts(&self) -> &Counts {
         &self.counts
