@@ -12,6 +12,7 @@ use ratatui::crossterm::event::{
 };
 use ratatui::layout::Rect;
 use ratatui::style::Color;
+use rayscope::explain::Glyphs;
 use rayscope::explorer::action::{Action, markdown};
 use rayscope::explorer::{Explorer, Options, Request, Waker};
 use rayscope::geometry::Ray;
@@ -183,6 +184,45 @@ fn a_screen_in_ascii_has_no_byte_above_127() {
             let screen = person.presses(keys).screen();
             assert!(screen.is_ascii(), "after {keys}:\n{screen}");
         }
+    }
+}
+
+#[test]
+fn in_ascii_no_step_is_cut_off_and_columns_stay_columns() {
+    let options = Options {
+        method: Method::Double,
+        glyphs: Glyphs::Ascii,
+        style: Style::Ascii,
+        ..Options::default()
+    };
+    let mut person = Person::with("far", 80, 24, options);
+    let column = |person: &mut Person, row: &str| {
+        let screen = person.screen();
+        let line = screen
+            .lines()
+            .find(|line| line.contains(row))
+            .expect(row)
+            .to_owned();
+        line.find(row).expect(row) + row.len()
+    };
+    assert_eq!(
+        column(&mut person, "| C    |p0-c|^2 - r^2 "),
+        column(&mut person, "| disc B^2 - 4AC      ")
+    );
+    person.presses("2 P");
+    for _ in 0..27 {
+        let screen = person.screen();
+        let panel = screen
+            .lines()
+            .skip(1)
+            .filter_map(|line| line.split("||").nth(1));
+        for line in panel {
+            assert!(
+                !line.trim_end_matches([' ', '|']).ends_with(".."),
+                "{screen}"
+            );
+        }
+        person.presses("enter enter");
     }
 }
 
@@ -463,6 +503,63 @@ fn all_spheres_of_a_line_are_listed_and_one_can_be_chosen() {
 }
 
 #[test]
+fn what_a_method_gets_wrong_is_never_what_there_is_no_room_for() {
+    let mut wrong = 0;
+    for scene in ["far", "grazing"] {
+        for method in Method::ALL {
+            let options = Options {
+                method,
+                ..Options::default()
+            };
+            let mut person = Person::with(scene, 80, 24, options);
+            for (x, y) in (0..40).step_by(7).flat_map(|x| [(x, 4), (x, 19), (x, 30)]) {
+                person.commands(&format!("cursor {x} {y}"));
+                let screen = person.screen();
+                let panel: String = screen
+                    .lines()
+                    .filter_map(|line| line.split("││").nth(1))
+                    .flat_map(|line| [line.trim_end_matches('│').trim(), " "])
+                    .collect();
+                let reading = person.explorer.reading().expect("a reading");
+                let trace = &reading.subject.as_ref().expect("a sphere").trace;
+                if trace.solution.class != trace.truth.class {
+                    let said = format!("{method} says {}, but the line", trace.solution.class);
+                    assert!(panel.contains(&said), "no “{said}” on\n{screen}");
+                    wrong += 1;
+                }
+                for other in &reading.wrong {
+                    let said = format!("sphere {}: {}, but", other.body + 1, other.said);
+                    assert!(panel.contains(&said), "no “{said}” on\n{screen}");
+                    wrong += 1;
+                }
+                // Of a number that has lost a third of its bits the exact value stays.
+                let roots = [&trace.near, &trace.far].into_iter().flatten();
+                let lost = [&trace.a, &trace.b, &trace.c, &trace.discriminant].into_iter();
+                let lost = lost
+                    .chain(roots)
+                    .filter(|m| m.ulps().is_some_and(|u| u.abs() > 256.0));
+                assert!(panel.matches(" ulp").count() >= lost.count(), "{screen}");
+            }
+        }
+    }
+    assert!(wrong > 50, "{wrong}");
+}
+
+#[test]
+fn lines_that_have_no_room_are_counted_and_come_by_scrolling() {
+    let mut person = Person::opens("trio", 80, 24);
+    person.shows("7 more lines: pagedown");
+    assert!(!person.screen().contains("cos θ"));
+    person
+        .presses("pagedown")
+        .shows("= 0.0076² + (−0.17)² + (−0.99)²");
+    person.presses("pagedown pagedown pagedown").shows("cos θ");
+    person
+        .presses("pageup pageup pageup pageup")
+        .shows("7 more lines: pagedown");
+}
+
+#[test]
 fn a_person_walks_through_the_derivation_and_back() {
     let mut person = Person::opens("seed", 80, 24);
     let before = person.screen();
@@ -732,7 +829,12 @@ fn the_mark_of_the_column_covers_no_word() {
     let mut person = Person::opens("seed", 80, 24);
     for _ in 0..40 {
         person.presses("left");
-        let top = person.screen().lines().nth(1).unwrap_or_default().to_owned();
+        let top = person
+            .screen()
+            .lines()
+            .nth(1)
+            .unwrap_or_default()
+            .to_owned();
         assert!(top.contains(" view 40×40 "), "{top}");
     }
 }
@@ -756,7 +858,9 @@ fn a_line_through_very_many_spheres_lists_the_first_of_them() {
     scene.bodies = vec![one; 100_000];
     let source = rayscope::scene::Source::Builtin(rayscope::scene::Builtin::Trio);
     person.explorer = Explorer::new(scene, &source, Options::default());
-    person.presses("right left").shows("100000 spheres on this line");
+    person
+        .presses("right left")
+        .shows("100000 spheres on this line");
 }
 
 #[test]

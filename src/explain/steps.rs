@@ -1,5 +1,6 @@
 //! The steps of a derivation as lines of text: one step large, and the list of all.
 
+use super::Glyphs;
 use super::derivation::{Question, Step};
 use super::panel::{Line, Role};
 
@@ -21,7 +22,8 @@ pub fn step_lines(step: &Step, width: usize, look: StepLook) -> Vec<Line> {
     out.extend(wrapped(&step.why, width, Role::Plain, "", 2));
     out.push(Line::new(5));
     let name = format!("{} = ", step.name);
-    let head = if step.formula.contains('=') || step.name.len() > 4 {
+    let names_itself = step.formula.contains('=') || step.formula == step.name;
+    let head = if names_itself || step.name.len() > 4 {
         String::new()
     } else {
         name
@@ -34,7 +36,8 @@ pub fn step_lines(step: &Step, width: usize, look: StepLook) -> Vec<Line> {
         0,
     ));
     if !step.numbers.is_empty() {
-        out.extend(wrapped(&step.numbers, width, Role::Plain, "= ", 1));
+        let lead = lead(&step.numbers);
+        out.extend(wrapped(&step.numbers, width, Role::Plain, lead, 1));
     }
     if look.hidden {
         out.extend(wrapped(HIDDEN, width, Role::Value, "= ", 0));
@@ -44,7 +47,7 @@ pub fn step_lines(step: &Step, width: usize, look: StepLook) -> Vec<Line> {
         } else {
             Role::Value
         };
-        out.extend(wrapped(&step.result, width, role, "= ", 0));
+        out.extend(wrapped(&step.result, width, role, lead(&step.result), 0));
     }
     if !look.hidden {
         out.extend(loss_lines(step, width));
@@ -56,10 +59,20 @@ pub fn step_lines(step: &Step, width: usize, look: StepLook) -> Vec<Line> {
     out
 }
 
+/// What stands before a line: an equals sign, unless the line is a sentence or an equation itself.
+fn lead(text: &str) -> &'static str {
+    if text.contains(['<', '>', '≤']) || text.contains(": ") || text.contains(" = ") {
+        ""
+    } else {
+        "= "
+    }
+}
+
 /// A question that waits for an answer, and the keys that answer it.
-pub fn question_lines(question: Question, width: usize) -> Vec<Line> {
+pub fn question_lines(question: Question, width: usize, glyphs: Glyphs) -> Vec<Line> {
     let mut out = vec![Line::new(4)];
-    out.extend(wrapped(question.text(), width, Role::Label, "", 0));
+    let text = glyphs.spell(question.text());
+    out.extend(wrapped(&text, width, Role::Label, "", 0));
     let answers = question.answers();
     let keys = answers.map(|(key, word)| format!("{key} {word}"));
     out.extend(wrapped(&keys.join("   "), width, Role::Plain, "", 0));
