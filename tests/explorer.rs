@@ -463,6 +463,63 @@ fn all_spheres_of_a_line_are_listed_and_one_can_be_chosen() {
 }
 
 #[test]
+fn what_a_method_gets_wrong_is_never_what_there_is_no_room_for() {
+    let mut wrong = 0;
+    for scene in ["far", "grazing"] {
+        for method in Method::ALL {
+            let options = Options {
+                method,
+                ..Options::default()
+            };
+            let mut person = Person::with(scene, 80, 24, options);
+            for (x, y) in (0..40).step_by(7).flat_map(|x| [(x, 4), (x, 19), (x, 30)]) {
+                person.commands(&format!("cursor {x} {y}"));
+                let screen = person.screen();
+                let panel: String = screen
+                    .lines()
+                    .filter_map(|line| line.split("││").nth(1))
+                    .flat_map(|line| [line.trim_end_matches('│').trim(), " "])
+                    .collect();
+                let reading = person.explorer.reading().expect("a reading");
+                let trace = &reading.subject.as_ref().expect("a sphere").trace;
+                if trace.solution.class != trace.truth.class {
+                    let said = format!("{method} says {}, but the line", trace.solution.class);
+                    assert!(panel.contains(&said), "no “{said}” on\n{screen}");
+                    wrong += 1;
+                }
+                for other in &reading.wrong {
+                    let said = format!("sphere {}: {}, but", other.body + 1, other.said);
+                    assert!(panel.contains(&said), "no “{said}” on\n{screen}");
+                    wrong += 1;
+                }
+                // Of a number that has lost a third of its bits the exact value stays.
+                let roots = [&trace.near, &trace.far].into_iter().flatten();
+                let lost = [&trace.a, &trace.b, &trace.c, &trace.discriminant].into_iter();
+                let lost = lost
+                    .chain(roots)
+                    .filter(|m| m.ulps().is_some_and(|u| u.abs() > 256.0));
+                assert!(panel.matches(" ulp").count() >= lost.count(), "{screen}");
+            }
+        }
+    }
+    assert!(wrong > 50, "{wrong}");
+}
+
+#[test]
+fn lines_that_have_no_room_are_counted_and_come_by_scrolling() {
+    let mut person = Person::opens("trio", 80, 24);
+    person.shows("7 more lines: pagedown");
+    assert!(!person.screen().contains("cos θ"));
+    person
+        .presses("pagedown")
+        .shows("= 0.0076² + (−0.17)² + (−0.99)²");
+    person.presses("pagedown pagedown pagedown").shows("cos θ");
+    person
+        .presses("pageup pageup pageup pageup")
+        .shows("7 more lines: pagedown");
+}
+
+#[test]
 fn a_person_walks_through_the_derivation_and_back() {
     let mut person = Person::opens("seed", 80, 24);
     let before = person.screen();

@@ -367,6 +367,33 @@ fn a_chapter_that_is_none_is_refused_with_its_place() {
 }
 
 #[test]
+fn the_chapter_in_the_docs_is_one() {
+    let page = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/tour.md");
+    let docs = fs::read_to_string(page).expect("the page");
+    let example = docs.split("```").nth(1).expect("an example");
+    let text = example.trim_start_matches("toml");
+    let chapter = Chapter::parse(text, "rim.toml", None).expect("a chapter");
+    let mut student = Student::opens("seed", SMALL, Options::default());
+    student.explorer.start_tour([chapter].into(), 0, 0);
+    student
+        .shows("1/1: grazing the rim, page 1/2")
+        .shows("r 8")
+        .shows("Δ    B² − 4AC       0");
+    student
+        .presses("f")
+        .shows("Is Δ negative, zero or positive?");
+    // Every key that a page may have is in the table.
+    let said = refused("title = \"a\"\n[[page]]\ntext = \"b\"\nnone = 1");
+    let keys = said.split('`').skip(3).step_by(2);
+    for key in keys {
+        assert!(
+            docs.contains(&format!("`{key}`")),
+            "{key} is not in the docs"
+        );
+    }
+}
+
+#[test]
 fn a_teachers_folder_is_a_tour() {
     let folder = tempfile::tempdir().expect("a folder");
     let write =

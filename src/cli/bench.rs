@@ -44,6 +44,10 @@ pub(super) struct Bench {
     #[arg(long, conflicts_with_all = ["family", "scene", "rays", "plot", "worst", "strict"])]
     frames: bool,
 
+    /// With --frames: only these numbers of spheres, separated by commas
+    #[arg(long, value_name = "NUMBERS", value_delimiter = ',', requires = "frames", value_parser = clap::value_parser!(u32).range(1..=3_000_000))]
+    counts: Vec<u32>,
+
     /// How many rays of each family
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
     rays: Option<u32>,
@@ -130,6 +134,10 @@ fn run_frames(arguments: &Bench) -> ExitCode {
     let mut schedule = frames::Schedule::new(arguments.quick, arguments.seed);
     if !arguments.method.is_empty() {
         schedule.methods.clone_from(&arguments.method);
+    }
+    if !arguments.counts.is_empty() {
+        schedule.counts = arguments.counts.iter().map(|&n| n as usize).collect();
+        schedule.counts.sort_unstable();
     }
     let mut progress = match Progress::new("bench", schedule.rows()) {
         Ok(progress) => progress,

@@ -180,7 +180,7 @@ impl Screen {
         self.frame.render(scene, &rays, self.method, self.view);
         self.image.draw(&self.frame, scene, self.look);
         let mut lines = self.frame.plan().lines();
-        lines.extend(self.image.plan(false));
+        lines.extend(self.image.plan());
         lines.push(self.bytes());
         Entry {
             frame,

@@ -16,7 +16,7 @@ pub mod worksheet;
 use glam::{DVec3, Vec3};
 
 use crate::geometry::{Ray, Sphere};
-use crate::method::{Coefficients, Method, Place, Solution, Trace};
+use crate::method::{Class, Coefficients, Method, Place, Solution, Trace};
 use crate::scene::{Body, Scene};
 
 pub use compare::{comparison, measured_bits};
@@ -43,6 +43,19 @@ pub struct Reading {
     pub meetings: Vec<Meeting>,
     /// The sphere whose quadratic is shown; none in an empty scene.
     pub subject: Option<Subject>,
+    /// The other spheres that the method gets wrong.
+    pub wrong: Vec<Wrong>,
+}
+
+/// A sphere about which a method says another class than is right.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Wrong {
+    /// Number of the sphere in the scene, from 0.
+    pub body: usize,
+    /// What the method says.
+    pub said: Class,
+    /// What is right.
+    pub right: Class,
 }
 
 /// A sphere that the line of the ray meets.
@@ -141,11 +154,13 @@ impl Reading {
                 Some((selected, Why::Selected))
             })
             .or_else(|| Some((nearest_miss(&scene.bodies, &ray)?, Why::NearestMiss)));
+        let shown = pick.map(|(body, _)| body);
         Self {
             pixel,
             ray,
             method,
             spheres: scene.bodies.len(),
+            wrong: wrong(scene, &ray, method, shown),
             subject: pick.map(|(body, why)| subject(scene, body, why, &ray, method)),
             meetings,
         }
@@ -172,6 +187,20 @@ fn meetings(scene: &Scene, ray: &Ray, method: Method) -> Vec<Meeting> {
         })
     });
     meetings
+}
+
+/// The spheres but the one that is shown whose class the method gets wrong.
+fn wrong(scene: &Scene, ray: &Ray, method: Method, shown: Option<usize>) -> Vec<Wrong> {
+    if method == Method::Exact {
+        return Vec::new();
+    }
+    let others = scene.bodies.iter().enumerate();
+    let others = others.filter(|&(body, _)| Some(body) != shown);
+    let judged = others.map(|(body, b)| {
+        let [said, right] = [method, Method::Exact].map(|m| m.solve(ray, &b.sphere).class);
+        Wrong { body, said, right }
+    });
+    judged.filter(|wrong| wrong.said != wrong.right).collect()
 }
 
 /// The sphere with the largest Δ/(4Ar²) = 1 − (p/r)², where p is the line's distance from its centre.

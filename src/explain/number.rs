@@ -42,7 +42,10 @@ impl Glyphs {
         for c in text.chars() {
             match c {
                 '−' | '–' | '—' => out.push('-'),
-                '·' | '×' => out.push('*'),
+                '·' => out.push('*'),
+                '×' => out.push('x'),
+                '₆' => out.push('6'),
+                '₄' => out.push('4'),
                 '²' => out.push_str("^2"),
                 '√' => out.push_str("sqrt "),
                 'Δ' => out.push_str("disc"),
@@ -63,7 +66,7 @@ impl Glyphs {
                 '▴' | '↑' => out.push('^'),
                 '÷' | '↗' | '↙' => out.push('/'),
                 '↖' | '↘' => out.push('\\'),
-                '‖' => out.push('|'),
+                '‖' | '⌊' | '⌋' => out.push('|'),
                 '½' => out.push_str("1/2"),
                 '∞' => out.push_str("inf"),
                 'A'..='Z' | 'a'..='z' => out.push(c),

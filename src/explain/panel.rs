@@ -17,7 +17,7 @@ use std::cmp::Ordering;
 use glam::Vec3;
 
 use super::wrap;
-use super::{Digits, Ink, Meeting, Reading, Subject, number, vector};
+use super::{Digits, Ink, Meeting, Reading, Subject, Wrong, number, vector};
 use crate::method::format::Signs;
 use crate::method::trace::{Measured, ulps_text};
 use crate::method::{Class, Coefficients, Place, Precision, Solution};
@@ -158,6 +158,7 @@ pub fn lines(reading: &Reading, width: usize, digits: Digits) -> Vec<Line> {
     out.push(Line::new(5));
     out.extend(coefficient_lines(reading, subject, width, digits));
     out.extend(verdict_lines(subject, width, digits));
+    out.extend(wrong_lines(reading, width));
     out.extend(sight_lines(subject, width, digits));
     out.extend(meeting_lines(reading, subject.body, digits));
     out
@@ -362,7 +363,7 @@ fn verdict_lines(subject: &Subject, width: usize, digits: Digits) -> Vec<Line> {
     let Solution { class, near, far } = subject.solution;
     let verdict = match class {
         Class::Miss => "Δ < 0  miss: no point in common",
-        Class::Tangent => "Δ = 0  tangent: one point, it touches",
+        Class::Tangent => "Δ = 0  tangent: it touches",
         Class::Secant => "Δ > 0  secant: two points",
         Class::Nan => "Δ is not a number: no answer",
     };
@@ -391,6 +392,29 @@ fn verdict_lines(subject: &Subject, width: usize, digits: Digits) -> Vec<Line> {
     out.push(Line::new(0).with(Role::Plain, words));
     out
 }
+
+/// What the method says wrongly of spheres that are not shown.
+fn wrong_lines(reading: &Reading, width: usize) -> Vec<Line> {
+    let sentence = |wrong: &Wrong| {
+        let Wrong { body, said, right } = wrong;
+        format!("sphere {}: {said}, but exactly {right}", body + 1)
+    };
+    let mut sentences: Vec<_> = reading
+        .wrong
+        .iter()
+        .take(MOST_WRONG)
+        .map(sentence)
+        .collect();
+    let more = reading.wrong.len() - sentences.len();
+    if more > 0 {
+        sentences.push(format!("and {more} more spheres are wrong"));
+    }
+    let lines = sentences.iter().flat_map(|sentence| wrap(sentence, width));
+    lines.map(|text| Line::of(Role::Warning, text)).collect()
+}
+
+/// How many of the other spheres that a method gets wrong are named.
+const MOST_WRONG: usize = 2;
 
 fn root(label: &str, formula: &str, value: &str) -> Line {
     Line::new(0)

@@ -7,18 +7,19 @@ use super::wrap;
 use crate::render;
 
 /// Columns of a thing's name, and of each of its two numbers.
-const NAME: usize = 17;
-const NUMBER: usize = 8;
+const NAME: usize = 16;
+const NUMBER: usize = 9;
 
-/// The plan for a panel: first the numbers of all things, then the reasons.
-pub fn plan_panel(plan: &[render::Line], width: usize) -> Vec<Line> {
+/// The plan for a panel: what this `frame` did, the numbers of all things, then the reasons.
+pub fn plan_panel(frame: &str, plan: &[render::Line], width: usize) -> Vec<Line> {
     let spread = width.saturating_sub(NAME + 2 * NUMBER) / 2;
     let [first, second] = [NAME + NUMBER + spread, NAME + 2 * (NUMBER + spread)];
-    let mut out = vec![
+    let mut out: Vec<Line> = wrap(frame, width).into_iter().map(Line::plain).collect();
+    out.push(
         Line::new(0)
             .with(Role::Label, right("kept", first))
             .with(Role::Label, right("left out", second - first)),
-    ];
+    );
     for line in plan {
         let role = if line.left_out > 0 {
             Role::Value
@@ -76,7 +77,7 @@ fn right(text: &str, width: usize) -> String {
 fn compact(n: u64) -> String {
     match n {
         0..10_000_000 => n.to_string(),
-        10_000_000..10_000_000_000 => format!("{}·10⁶", n / 1_000_000),
+        10_000_000..1_000_000_000 => format!("{}·10⁶", n / 1_000_000),
         _ => format!("{}·10⁹", n / 1_000_000_000),
     }
 }
@@ -86,14 +87,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_panel_of_36_columns_holds_every_line() {
+    fn a_panel_of_34_columns_holds_every_line() {
         let plan = [
             render::Line::new("stage 3", 1, 23_999_999_999_999, "it was sure"),
             render::Line::new("  before the eye", 9_999_999, 0, "a ".repeat(60)),
         ];
-        for line in plan_panel(&plan, 36) {
+        for line in plan_panel("It rests.", &plan, 34) {
             let width: usize = line.spans.iter().map(|s| s.text.chars().count()).sum();
-            assert!(width <= 36, "{line:?}");
+            assert!(width <= 34, "{line:?}");
         }
         for line in plan_text(&plan, 80).lines() {
             assert!(line.chars().count() <= 80, "{line}");

@@ -21,7 +21,8 @@ pub fn step_lines(step: &Step, width: usize, look: StepLook) -> Vec<Line> {
     out.extend(wrapped(&step.why, width, Role::Plain, "", 2));
     out.push(Line::new(5));
     let name = format!("{} = ", step.name);
-    let head = if step.formula.contains('=') || step.name.len() > 4 {
+    let names_itself = step.formula.contains('=') || step.formula == step.name;
+    let head = if names_itself || step.name.len() > 4 {
         String::new()
     } else {
         name
@@ -34,7 +35,8 @@ pub fn step_lines(step: &Step, width: usize, look: StepLook) -> Vec<Line> {
         0,
     ));
     if !step.numbers.is_empty() {
-        out.extend(wrapped(&step.numbers, width, Role::Plain, "= ", 1));
+        let lead = lead(&step.numbers);
+        out.extend(wrapped(&step.numbers, width, Role::Plain, lead, 1));
     }
     if look.hidden {
         out.extend(wrapped(HIDDEN, width, Role::Value, "= ", 0));
@@ -44,7 +46,7 @@ pub fn step_lines(step: &Step, width: usize, look: StepLook) -> Vec<Line> {
         } else {
             Role::Value
         };
-        out.extend(wrapped(&step.result, width, role, "= ", 0));
+        out.extend(wrapped(&step.result, width, role, lead(&step.result), 0));
     }
     if !look.hidden {
         out.extend(loss_lines(step, width));
@@ -54,6 +56,15 @@ pub fn step_lines(step: &Step, width: usize, look: StepLook) -> Vec<Line> {
         out.extend(wrapped(&step.code, width, Role::Faint, "", 3));
     }
     out
+}
+
+/// What stands before a line: an equals sign, unless the line is a sentence or an equation itself.
+fn lead(text: &str) -> &'static str {
+    if text.contains(['<', '>', '≤']) || text.contains(": ") || text.contains(" = ") {
+        ""
+    } else {
+        "= "
+    }
 }
 
 /// A question that waits for an answer, and the keys that answer it.

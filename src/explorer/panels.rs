@@ -22,9 +22,17 @@ impl Explorer {
 
     fn draw_panel(&self, pen: &mut Pen<'_>, panel: Panel, area: Rect) {
         let room = text_room(area);
-        let Some((title, lines)) = self.panel_text(panel, room) else {
+        let Some((title, mut lines)) = self.panel_text(panel, room) else {
             return;
         };
+        let mut left_out = 0;
+        // Whoever scrolls wants to see what there was no room for.
+        if panel == Panel::Quadratic && (panel != self.panel || self.scroll == 0) {
+            let written = |lines: &[Line]| lines.iter().filter(|l| l.width() > 0).count();
+            let before = written(&lines);
+            lines = explain::fit(lines, room.height.into());
+            left_out = before - written(&lines);
+        }
         // Only the panel that the person asked for scrolls.
         let hidden = lines.len().saturating_sub(room.height.into());
         let scroll = if panel == self.panel {
@@ -33,6 +41,12 @@ impl Explorer {
             0
         };
         let foot = match (scroll, hidden - scroll) {
+            (0, below) if below + left_out > 0 && panel == Panel::Quadratic => {
+                match below + left_out {
+                    1 => "1 more line: pagedown".to_owned(),
+                    more => format!("{more} more lines: pagedown"),
+                }
+            }
             (0, 0) => self.panel_foot(panel),
             (_, 0) => format!("{scroll} lines above: pageup"),
             (_, below) => format!("{below} lines below: pagedown"),
@@ -79,8 +93,7 @@ impl Explorer {
     fn quadratic_panel(&self, reading: &Reading, room: Rect) -> (String, Vec<Line>) {
         let (x, y) = reading.pixel;
         let lines = explain::lines(reading, room.width.into(), self.digits());
-        let title = format!("ray of pixel ({x}, {y})");
-        (title, explain::fit(lines, room.height.into()))
+        (format!("ray of pixel ({x}, {y})"), lines)
     }
 
     /// The step, and under it the list of all steps, which always stays.
@@ -176,12 +189,19 @@ impl Explorer {
         (title, lines)
     }
 
-    /// What the picture on the screen needed, of whatever frame it is.
+    /// What the picture on the screen needed when it was made or mended, and whether that was now.
     fn plan_panel(&self, room: Rect) -> (String, Vec<Line>) {
-        let plan = self.picture.plan();
+        let plan = self.picture.frame.plan();
+        let frame = if self.picture.rests {
+            "This frame: the picture rests."
+        } else if plan.counts().kept > 0 {
+            "This frame: the picture mended."
+        } else {
+            "This frame: a new picture."
+        };
         let title = format!("plan: {} {}", plan.method(), plan.view().name());
         let mut lines = plan.lines();
-        lines.extend(self.picture.plan_of_cells());
+        lines.extend(self.picture.image.plan());
         lines.push(render::Line::new(
             "cursor's ray",
             self.scene().bodies.len() as u64,
@@ -190,13 +210,13 @@ impl Explorer {
         ));
         if let Some([sent, all]) = self.sent {
             lines.push(render::Line::new(
-                "bytes, last frame",
+                "bytes sent",
                 sent,
                 all.saturating_sub(sent),
-                "cells that the terminal shows already are not sent; left out is what is spared against the largest frame so far",
+                "by the frame before this one: cells that the terminal shows already are not sent; left out is what the largest frame so far took more",
             ));
         }
-        (title, explain::plan_panel(&lines, room.width.into()))
+        (title, explain::plan_panel(frame, &lines, room.width.into()))
     }
 
     /// One step as large as the screen allows; its answer hidden until the key.

@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use super::{Explorer, Options, arrival, layout};
 use crate::explain::{Drawn, Glyphs, Reading, Step, derivation};
 use crate::method::Method;
-use crate::render::{Frame, Image, Line, Look, Plan, View, fit};
+use crate::render::{Frame, Image, Look, View, fit};
 use crate::scene::{PixelShape, Rays, Scene, Size};
 
 /// The picture on the screen, and what it was made from.
@@ -171,20 +171,6 @@ impl Picture {
             changed: Vec::new(),
             rests: false,
         }
-    }
-
-    /// What the last frame needed.
-    pub(super) fn plan(&self) -> Plan {
-        if self.rests {
-            self.frame.plan().at_rest()
-        } else {
-            self.frame.plan().clone()
-        }
-    }
-
-    /// The part of the plan that is about cells.
-    pub(super) fn plan_of_cells(&self) -> [Line; 2] {
-        self.image.plan(self.rests)
     }
 
     /// Takes nothing of what is there for the picture of the scene that comes now.

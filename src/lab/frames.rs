@@ -305,12 +305,36 @@ impl Stand<'_> {
         Some(times)
     }
 
-    /// Whether a frame without the plan would take over a minute, going by that of fewer spheres.
+    /// Whether a frame without the plan would take over a minute, going by that of fewer spheres: of the
+    /// row before, or of the first few.
     fn would_be_too_long(&self, smaller: Option<Row>) -> bool {
-        smaller.is_some_and(|row| {
-            let factor = self.scenes[0].bodies.len() as f64 / row.spheres as f64;
-            row.no_plan_ms.is_none_or(|ms| ms * factor > TOO_LONG)
-        })
+        let (spheres, ms) = match smaller {
+            Some(row) => (row.spheres, row.no_plan_ms),
+            None => {
+                let few = self.few();
+                let start = self.clock.now();
+                Frame::new().render_all(&few, &self.rays, self.method, View::Shade);
+                let taken = milliseconds(self.clock.now().saturating_sub(start));
+                (few.bodies.len(), Some(taken))
+            }
+        };
+        let factor = self.scenes[0].bodies.len() as f64 / spheres.max(1) as f64;
+        ms.is_none_or(|ms| ms * factor > TOO_LONG)
+    }
+
+    /// The scene with its first spheres only.
+    fn few(&self) -> Scene {
+        let scene = &self.scenes[0];
+        let few = scene.bodies.iter().take(10).cloned();
+        Scene {
+            name: scene.name.clone(),
+            about: None,
+            camera: scene.camera,
+            pixels: None,
+            bodies: few.collect(),
+            light: None,
+            probes: Vec::new(),
+        }
     }
 
     /// The time without the plan.

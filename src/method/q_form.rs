@@ -169,7 +169,7 @@ pub(super) fn root_steps<'t, F: Float>(
             formula: "√D",
             template: "√{D}",
             code: "let root = reduced.sqrt();",
-            why: "Half the way between the two points, measured in t and times A.",
+            why: "Half the distance between the two roots, times A.",
         },
         roots.root,
     );

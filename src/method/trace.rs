@@ -572,7 +572,7 @@ mod tests {
         );
         assert!(
             plain
-                .step("E")
+                .step("bound")
                 .unwrap()
                 .numbers
                 .ends_with("the sign of D is certain")
@@ -587,7 +587,7 @@ mod tests {
         );
         assert!(
             tangent
-                .step("E")
+                .step("bound")
                 .unwrap()
                 .numbers
                 .ends_with("the sign of D is open")

@@ -124,11 +124,10 @@ impl Image {
     }
 
     /// The part of the plan that is about cells: how many were drawn for the last frame, and how many
-    /// of them came out other than they were; none in a frame that left the picture as it was.
-    pub fn plan(&self, rests: bool) -> [Line; 2] {
+    /// of them came out other than they were.
+    pub fn plan(&self) -> [Line; 2] {
         let all = self.cells.len() as u64;
-        let [drawn, changed] =
-            [self.drawn, self.changed].map(|n| if rests { 0 } else { n.min(all) });
+        let [drawn, changed] = [self.drawn, self.changed].map(|n| n.min(all));
         [
             Line::new(
                 "cells drawn",

@@ -32,7 +32,7 @@ pub(super) const NO_ANSWER: char = '?';
 pub(super) const WRONG: char = '!';
 
 /// From dark to bright. Even the darkest is no blank: it is a hit.
-const RAMP: &[u8] = b".,:-=+*#%@";
+pub const RAMP: &[u8] = b".,:-=+*#%@";
 
 const WHITE: Rgb = Rgb(0xff, 0xff, 0xff);
 const ORANGE: Rgb = Rgb(0xe6, 0x9f, 0x00);

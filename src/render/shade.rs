@@ -10,7 +10,7 @@ use crate::method::{Method, Place};
 use crate::scene::Light;
 
 /// What is seen of a surface that no light reaches.
-const AMBIENT: f64 = 0.12;
+pub const AMBIENT: f64 = 0.12;
 
 /// A point of a sphere that is seen.
 pub(super) struct Hit<'a> {

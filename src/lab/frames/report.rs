@@ -5,7 +5,6 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use super::{Report, Row};
-use crate::lab::bench::text::brief;
 use crate::lab::machine::Machine;
 use crate::method::Method;
 
@@ -80,8 +79,9 @@ fn times(row: &Row) -> Vec<String> {
         row.method.to_string(),
         brief(row.plan_ms),
         row.no_plan_ms.map_or("> 60000".into(), brief),
-        row.no_plan_ms
-            .map_or("-".into(), |without| brief(without / row.plan_ms)),
+        row.no_plan_ms.map_or("-".into(), |without| {
+            format!("{:.1}", without / row.plan_ms)
+        }),
         brief(row.one_moved_ms),
     ]
 }
@@ -166,6 +166,19 @@ fn remarks(report: &Report) -> Vec<String> {
         out.push("Interrupted: the remaining rows were not measured.".into());
     }
     out
+}
+
+/// Milliseconds with three digits that count, be there few of them.
+fn brief(ms: f64) -> String {
+    let decimals = match ms {
+        _ if ms >= 99.95 => 0,
+        _ if ms >= 9.995 => 1,
+        _ if ms >= 0.9995 => 2,
+        _ if ms >= 0.09995 => 3,
+        _ if ms >= 0.0005 => 4,
+        _ => 5,
+    };
+    format!("{ms:.decimals$}")
 }
 
 fn wrapped(line: &str) -> String {

@@ -95,13 +95,13 @@ fn sign_step(discriminant: &Discriminant<f64>) -> Step {
     };
     scalar(
         (
-            "E",
-            "how far D may be off",
+            "bound",
+            "how far D may be off at most",
             format!("|D| = {} {than} 4·{}: {verdict}", text(d), text(bound)),
         ),
         measured(bound, Surd::from_f64(bound)),
         "let threshold = self.threshold();",
-        "A bound on the rounding errors of D: farther from 0 than that, its sign is right.",
+        "How far rounding may have moved D: farther from 0 than that, and its sign is right.",
     )
 }
 
@@ -150,7 +150,7 @@ fn root_steps(
             ("√D", "√D", format!("√{}", text(discriminant.d))),
             measured(direct.s, root_d),
             "let s = d.sqrt();",
-            "Half the way between the two points, measured in t and times A.",
+            "Half the distance between the two roots, times A.",
         ),
         root(
             "near₆₄",

@@ -1,0 +1,207 @@
+//! The derivation of one pixel, step by step: from the pixel to its ray, through the quadratic as the
+//! method works it, to the point that is seen and the character that shows it.
+//!
+//! The steps of the quadratic are the method's own trace. The steps before and after it are those
+//! of the camera and of the picture.
+
+mod ray;
+mod seen;
+
+use glam::Vec3;
+
+use super::{Digits, Reading, Subject, number, vector};
+use crate::method::format::Signs;
+use crate::method::trace::{self, Measured, Quantity, Trace};
+use crate::method::{Class, Method, Place, Precision};
+use crate::render::{Frame, Image, Style, View};
+use crate::scene::{Rays, Scene};
+
+/// What the picture made of a pixel.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drawn {
+    /// From 0 to 1, of the nearest hit.
+    pub brightness: f32,
+    /// The character of the cell that shows the pixel.
+    pub glyph: char,
+    /// How samples become characters.
+    pub style: Style,
+    /// What the picture shows.
+    pub view: View,
+}
+
+impl Drawn {
+    /// What a frame and its image made of pixel (x, y).
+    pub fn at((x, y): (u32, u32), frame: &Frame, image: &Image, style: Style) -> Self {
+        let (col, row) = style.cell_of_pixel(x, y);
+        Self {
+            brightness: frame.brightness(x, y),
+            glyph: image.cell(col, row).map_or(' ', |cell| cell.glyph),
+            style,
+            view: frame.view(),
+        }
+    }
+}
+
+/// One step of the derivation of a pixel.
+#[derive(Debug, Clone)]
+pub struct Step {
+    /// A word or a letter for the list of steps.
+    pub name: String,
+    /// Why the step is done, in a sentence.
+    pub why: String,
+    /// The formula in letters.
+    pub formula: String,
+    /// The formula with this pixel's numbers.
+    pub numbers: String,
+    /// What comes out.
+    pub result: String,
+    /// The line of the program that does it.
+    pub code: String,
+    /// What would come out without rounding, and how far off the result is; nothing if it is right.
+    pub exact: Option<String>,
+    /// What the operations of the step lost, in sentences.
+    pub losses: Vec<String>,
+    /// Whether this is the first step that loses much.
+    pub first_heavy: bool,
+    /// What a student may be asked before the result is shown.
+    pub question: Option<Question>,
+    /// The number whose bits are worth a look.
+    pub number: Option<Measured>,
+}
+
+/// A question that a step answers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Question {
+    /// Is Δ below, equal to or above zero?
+    Sign,
+    /// How many points have line and sphere in common?
+    Count,
+    /// Which root is seen?
+    Seen,
+}
+
+impl Question {
+    /// The question as it is asked.
+    pub const fn text(self) -> &'static str {
+        match self {
+            Self::Sign => "Is Δ negative, zero or positive?",
+            Self::Count => "How many points do line and sphere share?",
+            Self::Seen => "Which root is seen?",
+        }
+    }
+
+    /// The keys that answer, each with what it says; the right one is at place [`Question::right`].
+    pub const fn answers(self) -> [(char, &'static str); 3] {
+        match self {
+            Self::Sign => [('-', "negative"), ('0', "zero"), ('+', "positive")],
+            Self::Count => [('0', "none"), ('1', "one"), ('2', "two")],
+            Self::Seen => [('0', "neither"), ('n', "near"), ('f', "far")],
+        }
+    }
+
+    /// The place of the right answer; none where the method has no answer.
+    pub fn right(self, subject: &Subject) -> Option<usize> {
+        let class = match subject.solution.class {
+            Class::Miss => 0,
+            Class::Tangent => 1,
+            Class::Secant => 2,
+            Class::Nan => return None,
+        };
+        Some(match self {
+            Self::Sign | Self::Count => class,
+            Self::Seen => match subject.solution.place() {
+                Some(Place::Hit) => 1,
+                Some(Place::Inside) => 2,
+                Some(Place::Behind) | None => 0,
+            },
+        })
+    }
+}
+
+/// All steps for the pixel of a reading; empty in a scene without spheres.
+pub fn derivation(reading: &Reading, scene: &Scene, rays: &Rays, drawn: &Drawn) -> Vec<Step> {
+    let Some(subject) = &reading.subject else {
+        return Vec::new();
+    };
+    let mut steps = ray::steps(reading, subject, scene, rays);
+    steps.extend(quadratic_steps(&subject.trace));
+    steps.extend(seen::steps(reading, subject, scene, drawn));
+    steps
+}
+
+const DIGITS: Digits = Digits::Significant(7);
+
+fn n32(x: f32) -> String {
+    number(x.into(), Precision::Binary32, DIGITS)
+}
+
+fn n64(x: f64) -> String {
+    number(x, Precision::Binary64, DIGITS)
+}
+
+fn v3(v: Vec3) -> String {
+    format!("({})", vector(v, DIGITS))
+}
+
+impl Step {
+    fn plain(name: &str, why: &str, formula: &str) -> Self {
+        Self {
+            name: name.into(),
+            why: why.into(),
+            formula: formula.into(),
+            numbers: String::new(),
+            result: String::new(),
+            code: String::new(),
+            exact: None,
+            losses: Vec::new(),
+            first_heavy: false,
+            question: None,
+            number: None,
+        }
+    }
+}
+
+/// The steps of the method itself, as it traced them.
+fn quadratic_steps(trace: &Trace) -> Vec<Step> {
+    let heavy = trace.first_heavy_loss();
+    let signs = Signs::Typographic;
+    let step = |(at, step): (usize, &trace::Step)| Step {
+        numbers: step.numbers.clone(),
+        result: step.result.text(signs),
+        code: step.code.into(),
+        exact: exact(&step.result),
+        losses: step.losses.iter().map(|l| l.sentence(signs)).collect(),
+        first_heavy: heavy == Some(at),
+        question: is_discriminant(step.symbol, trace.method).then_some(Question::Sign),
+        number: step.result.parts().first().cloned(),
+        ..Step::plain(step.symbol, step.why, step.formula)
+    };
+    trace.steps.iter().enumerate().map(step).collect()
+}
+
+/// What a result would be without rounding, and how far off it is; nothing if it is right.
+fn exact(result: &Quantity) -> Option<String> {
+    let signs = Signs::Typographic;
+    let ulps = result.ulps().filter(|&ulps| ulps != 0.0)?;
+    let exact = result.exact_text(12, signs)?;
+    Some(format!(
+        "{exact}, {} ulp off",
+        trace::ulps_text(ulps, signs)
+    ))
+}
+
+/// Whether the sign of the step of that symbol decides the class.
+fn is_discriminant(symbol: &str, method: Method) -> bool {
+    match method {
+        Method::Textbook => symbol == "Δ",
+        _ => symbol == "D" || symbol == "Δ",
+    }
+}
+
+fn bracketed(value: &str) -> String {
+    if value.starts_with('−') {
+        format!("({value})")
+    } else {
+        value.to_owned()
+    }
+}
