@@ -12,6 +12,7 @@ use ratatui::crossterm::event::{
 };
 use ratatui::layout::Rect;
 use ratatui::style::Color;
+use rayscope::explain::Glyphs;
 use rayscope::explorer::action::{Action, markdown};
 use rayscope::explorer::{Explorer, Options, Request, Waker};
 use rayscope::geometry::Ray;
@@ -183,6 +184,45 @@ fn a_screen_in_ascii_has_no_byte_above_127() {
             let screen = person.presses(keys).screen();
             assert!(screen.is_ascii(), "after {keys}:\n{screen}");
         }
+    }
+}
+
+#[test]
+fn in_ascii_no_step_is_cut_off_and_columns_stay_columns() {
+    let options = Options {
+        method: Method::Double,
+        glyphs: Glyphs::Ascii,
+        style: Style::Ascii,
+        ..Options::default()
+    };
+    let mut person = Person::with("far", 80, 24, options);
+    let column = |person: &mut Person, row: &str| {
+        let screen = person.screen();
+        let line = screen
+            .lines()
+            .find(|line| line.contains(row))
+            .expect(row)
+            .to_owned();
+        line.find(row).expect(row) + row.len()
+    };
+    assert_eq!(
+        column(&mut person, "| C    |p0-c|^2 - r^2 "),
+        column(&mut person, "| disc B^2 - 4AC      ")
+    );
+    person.presses("2 P");
+    for _ in 0..27 {
+        let screen = person.screen();
+        let panel = screen
+            .lines()
+            .skip(1)
+            .filter_map(|line| line.split("||").nth(1));
+        for line in panel {
+            assert!(
+                !line.trim_end_matches([' ', '|']).ends_with(".."),
+                "{screen}"
+            );
+        }
+        person.presses("enter enter");
     }
 }
 

@@ -1,5 +1,6 @@
 //! The steps of a derivation as lines of text: one step large, and the list of all.
 
+use super::Glyphs;
 use super::derivation::{Question, Step};
 use super::panel::{Line, Role};
 
@@ -68,9 +69,10 @@ fn lead(text: &str) -> &'static str {
 }
 
 /// A question that waits for an answer, and the keys that answer it.
-pub fn question_lines(question: Question, width: usize) -> Vec<Line> {
+pub fn question_lines(question: Question, width: usize, glyphs: Glyphs) -> Vec<Line> {
     let mut out = vec![Line::new(4)];
-    out.extend(wrapped(question.text(), width, Role::Label, "", 0));
+    let text = glyphs.spell(question.text());
+    out.extend(wrapped(&text, width, Role::Label, "", 0));
     let answers = question.answers();
     let keys = answers.map(|(key, word)| format!("{key} {word}"));
     out.extend(wrapped(&keys.join("   "), width, Role::Plain, "", 0));

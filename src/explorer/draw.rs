@@ -12,9 +12,9 @@ use super::layout::{self, LEAST};
 use super::mode::{Form, Message, Mode, Prompt};
 use super::theme::Theme;
 use super::{Explorer, Options};
-use crate::explain::{self, Glyphs, Line};
+use crate::explain::{self, Digits, Glyphs, Line, number};
 use crate::lab::CaseForm;
-use crate::method::Place;
+use crate::method::{Place, Precision};
 use crate::render::Style;
 
 /// Writes text into cells: cut at the edge, spelt in the characters that there are.
@@ -79,9 +79,18 @@ impl Pen<'_> {
     pub(super) fn lines(&mut self, area: Rect, lines: &[Line]) {
         for (y, line) in (area.top()..area.bottom()).zip(lines) {
             let mut x = area.x;
+            let mut longer = 0;
             for span in &line.spans {
                 let room = area.right().saturating_sub(x);
-                x = self.text(x, y, room, &span.text, self.theme.role(span.role));
+                let mut text = self.glyphs.spell(&span.text);
+                longer += text.chars().count() - span.text.chars().count();
+                // What is spelt longer takes its room from the gap behind it: columns stay columns.
+                if text.len() > 1 && text.bytes().all(|b| b == b' ') {
+                    let taken = longer.min(text.len() - 1);
+                    text.truncate(text.len() - taken);
+                    longer -= taken;
+                }
+                x = self.text(x, y, room, &text, self.theme.role(span.role));
             }
         }
     }
@@ -270,7 +279,12 @@ impl Explorer {
     /// The picture in its border; the place of the cursor's cell.
     fn draw_view(&self, pen: &mut Pen<'_>, area: Rect) -> Option<Position> {
         let size = self.size();
-        let step = format!("step {}", self.step);
+        let step = number(
+            self.step.into(),
+            Precision::Binary32,
+            Digits::Significant(6),
+        );
+        let step = format!("step {step}");
         let foot = match self.selected {
             Some(at) => format!("sphere {} selected  {step}", at + 1),
             None => step,

@@ -105,16 +105,19 @@ impl Explorer {
                 vec![Line::plain("The scene has no spheres.")],
             );
         };
+        let glyphs = self.options.glyphs;
+        let step = step.spelt(glyphs);
+        let spelt: Vec<_> = steps.iter().map(|step| step.spelt(glyphs)).collect();
         let at = self.step_at.min(steps.len() - 1);
         let width = room.width.into();
-        let list = explain::step_list(steps, at, &self.picture.changed, width);
+        let list = explain::step_list(&spelt, at, &self.picture.changed, width);
         let look = StepLook {
             hidden: self.is_hidden(),
             changed: self.picture.changed.get(at).copied().unwrap_or(false),
         };
-        let mut lines = explain::step_lines(step, width, look);
+        let mut lines = explain::step_lines(&step, width, look);
         if let Some(question) = self.pending_question() {
-            lines.extend(explain::question_lines(question, width));
+            lines.extend(explain::question_lines(question, width, glyphs));
         }
         let space = usize::from(room.height).saturating_sub(list.len() + 1);
         let mut lines = explain::fit(lines, space);

@@ -301,7 +301,11 @@ impl Explorer {
         };
         let mut lines = explain::step_lines(step, ROOM.0.into(), look);
         if let Some(question) = self.pending_question() {
-            lines.extend(explain::question_lines(question, ROOM.0.into()));
+            lines.extend(explain::question_lines(
+                question,
+                ROOM.0.into(),
+                self.options.glyphs,
+            ));
         }
         let (at, count) = (self.step_at + 1, self.picture.steps.len());
         format!(

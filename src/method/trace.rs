@@ -593,6 +593,17 @@ mod tests {
                 .ends_with("the sign of D is open")
         );
         let unrounded = tangent.step("D, unrounded").unwrap();
+        // What a stage loses is said, though a later one makes it good.
+        let ground = trace(
+            Method::Exact,
+            [0.0, 0.001, 0.1],
+            [0.0, -1.0, 0.0],
+            [0.0, -1e6, 0.0],
+            1e6,
+        );
+        let lost = &ground.step("near₆₄").unwrap().losses[0];
+        let said = lost.sentence(Signs::Typographic);
+        assert!(said.starts_with("−b and √D agree in 2"), "{said}");
         assert_eq!(unrounded.numbers, "tangent, near 3, far 3");
         let tilted = trace(
             Method::Exact,

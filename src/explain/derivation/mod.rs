@@ -9,7 +9,7 @@ mod seen;
 
 use glam::Vec3;
 
-use super::{Digits, Reading, Subject, number, vector};
+use super::{Digits, Glyphs, Reading, Subject, number, vector};
 use crate::method::format::Signs;
 use crate::method::trace::{self, Measured, Quantity, Trace};
 use crate::method::{Class, Method, Place, Precision};
@@ -144,6 +144,22 @@ fn v3(v: Vec3) -> String {
 }
 
 impl Step {
+    /// The step in the characters that are allowed, before it is laid out in lines.
+    #[must_use]
+    pub fn spelt(&self, glyphs: Glyphs) -> Self {
+        let spell = |text: &String| glyphs.spell(text);
+        Self {
+            name: spell(&self.name),
+            why: spell(&self.why),
+            formula: spell(&self.formula),
+            numbers: spell(&self.numbers),
+            result: spell(&self.result),
+            exact: self.exact.as_ref().map(spell),
+            losses: self.losses.iter().map(spell).collect(),
+            ..self.clone()
+        }
+    }
+
     fn plain(name: &str, why: &str, formula: &str) -> Self {
         Self {
             name: name.into(),

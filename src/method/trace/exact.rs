@@ -1,6 +1,7 @@
 //! The derivation of `exact`: the record of the run that gave the answer, stage by stage. Nothing
 //! is computed here but the exact values that stand beside.
 
+use super::loss::{self, Loss, Operand};
 use super::{Measured, Quantity, Step};
 use crate::geometry::{Ray, Sphere};
 use crate::method::Precision;
@@ -8,6 +9,7 @@ use crate::method::dyadic::Dyadic;
 use crate::method::exact::{self, Bounded, Direct, Discriminant, Findings, Record, Stage};
 use crate::method::format::{Shortest, Signs, binary32, binary64};
 use crate::method::surd::Surd;
+use crate::method::tape::Operation;
 use crate::method::truth::Truth;
 
 /// Steps keep their numbers in print; whoever shows them spells them.
@@ -63,27 +65,46 @@ fn discriminant_steps(ray: &Ray, sphere: &Sphere, truth: &Truth, record: &Record
         ),
         scalar(
             ("A·r²", "A·r²", format!("{}·{r}²", text(a))),
-            measured(ar2, Some(exact_ar2.into())),
+            measured(ar2, Some(exact_ar2.clone().into())),
             "let ar2 = a * (r * r);",
             "What ‖o×d‖² would be if the line touched the sphere.",
         ),
         scalar(
             ("‖o×d‖²", "(o×d)·(o×d)", format!("‖{o_text} × {d_text}‖²")),
-            measured(k2, Some(exact_k2.into())),
+            measured(k2, Some(exact_k2.clone().into())),
             "let k2 = dot(k, k);",
             "The length of d times the distance at which the line passes the centre, squared.",
         ),
-        scalar(
-            (
-                "D",
-                "A·r² − ‖o×d‖²",
-                format!("{} − {}", text(ar2), text(k2)),
+        Step {
+            losses: difference_loss(
+                d,
+                ("A·r²", &measured(ar2, Some(exact_ar2.into()))),
+                ("‖o×d‖²", &measured(k2, Some(exact_k2.into()))),
             ),
-            measured(d, Some(truth.quarter_discriminant.clone().into())),
-            "d: ar2 - k2,",
-            "The discriminant, Δ/4, by Lagrange's identity.",
-        ),
+            ..scalar(
+                (
+                    "D",
+                    "A·r² − ‖o×d‖²",
+                    format!("{} − {}", text(ar2), text(k2)),
+                ),
+                measured(d, Some(truth.quarter_discriminant.clone().into())),
+                "d: ar2 - k2,",
+                "The discriminant, Δ/4, by Lagrange's identity.",
+            )
+        },
     ]
+}
+
+/// What the difference of two numbers in binary64 lost.
+fn difference_loss(value: f64, first: (&str, &Measured), second: (&str, &Measured)) -> Vec<Loss> {
+    let operands = [first, second].map(|(label, number)| Operand {
+        label: label.to_owned(),
+        named: true,
+        value: number.value,
+        exact: number.is_exact(),
+    });
+    let loss = loss::of_operation(Operation::Sub, value, &operands, Precision::Binary64);
+    loss.into_iter().collect()
 }
 
 /// Whether stage 1 knows the sign of D.
@@ -117,22 +138,39 @@ fn root_steps(
     let root_d = Surd::from(truth.quarter_discriminant.clone()).checked_sqrt();
     let b = factor(binary64(direct.half_b, SIGNS));
     let [s, a] = [direct.s, discriminant.a].map(text);
+    let minus_b = measured(-direct.half_b, Some((-truth.half_b.clone()).into()));
+    let root_of_d = measured(direct.s, root_d.clone());
+    // Of the two sums the one whose terms have opposite signs is a difference.
+    let losses = |sign| match (sign, minus_b.value > 0.0) {
+        ('−', true) => {
+            let difference = minus_b.value - direct.s;
+            difference_loss(difference, ("−b", &minus_b), ("√D", &root_of_d))
+        }
+        ('+', false) => {
+            let b = measured(direct.half_b, Some(truth.half_b.clone().into()));
+            difference_loss(direct.s - b.value, ("√D", &root_of_d), ("b", &b))
+        }
+        _ => Vec::new(),
+    };
     let root = |symbol, formula, sign, code, root: Bounded<f64>, exact| {
         let certainty = if root.error.is_finite() {
             format!("within {}", text(root.error))
         } else {
             "but how near that is is open".to_owned()
         };
-        scalar(
-            (
-                symbol,
-                formula,
-                format!("(−{b} {sign} {s}) / {a}, {certainty}"),
-            ),
-            measured(root.value, exact),
-            code,
-            "The root in binary64, and how far from the exact one it may be at most.",
-        )
+        Step {
+            losses: losses(sign),
+            ..scalar(
+                (
+                    symbol,
+                    formula,
+                    format!("(−{b} {sign} {s}) / {a}, {certainty}"),
+                ),
+                measured(root.value, exact),
+                code,
+                "The root in binary64, and how far from the exact one it may be at most.",
+            )
+        }
     };
     let [near, far] = direct.roots(discriminant);
     [

@@ -94,7 +94,16 @@ pub(super) struct Operand {
 
 /// What the operation of an entry lost, if anything that is worth a word.
 pub(super) fn of(entry: &Entry, operands: &[Operand], precision: Precision) -> Option<Loss> {
-    let operation = entry.operation?;
+    of_operation(entry.operation?, entry.value, operands, precision)
+}
+
+/// What an operation that gave `value` lost, if anything that is worth a word.
+pub(super) fn of_operation(
+    operation: Operation,
+    value: f64,
+    operands: &[Operand],
+    precision: Precision,
+) -> Option<Loss> {
     let loss = |kind, operands: [&Operand; 2]| Loss {
         kind,
         operands: operands.map(|o| o.label.clone()),
@@ -108,15 +117,15 @@ pub(super) fn of(entry: &Entry, operands: &[Operand], precision: Precision) -> O
     if operands.iter().any(|o| o.value.is_nan()) {
         return None;
     }
-    if entry.value.is_nan() {
+    if value.is_nan() {
         return Some(loss(LossKind::Invalid, both));
     }
-    if entry.value.is_infinite() {
+    if value.is_infinite() {
         let made_here = operands.iter().all(|o| o.value.is_finite());
         return made_here.then(|| loss(LossKind::Overflowed, both));
     }
     let local = local_result(operation, operands)?;
-    let inexact = local.ulps(entry.value, precision) != 0.0;
+    let inexact = local.ulps(value, precision) != 0.0;
     let least_normal = i64::from(precision.least_exponent()) + i64::from(precision.bits()) - 1;
     if inexact && local.floor_log2().is_some_and(|log| log < least_normal) {
         return Some(loss(LossKind::Underflowed, both));
@@ -127,7 +136,7 @@ pub(super) fn of(entry: &Entry, operands: &[Operand], precision: Precision) -> O
     };
     let [Some(x), Some(y)] = sum else { return None };
     let (lx, ly) = (x.floor_log2()?, y.floor_log2()?);
-    let result = Dyadic::from_f64(entry.value)?;
+    let result = Dyadic::from_f64(value)?;
     let cancelled = match result.floor_log2() {
         Some(l) => lx.max(ly) - l,
         None => i64::from(precision.bits()),
