@@ -2,8 +2,13 @@
 
 use proptest::prelude::*;
 use ratatui::buffer::Buffer;
+use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 use ratatui::layout::{Position, Rect};
 use ratatui::style::{Color, Modifier, Style};
+use rayscope::explain::Glyphs;
+use rayscope::explorer::{Explorer, Options, Palette};
+use rayscope::render::ColorDepth;
+use rayscope::scene::Scene;
 use rayscope::terminal::{Limits, Painter};
 
 #[path = "terminal/seen.rs"]
@@ -55,15 +60,37 @@ impl Easel {
     }
 }
 
+/// The sixteen, in the order of their numbers.
+const NAMED: [Color; 16] = [
+    Color::Black,
+    Color::Red,
+    Color::Green,
+    Color::Yellow,
+    Color::Blue,
+    Color::Magenta,
+    Color::Cyan,
+    Color::Gray,
+    Color::DarkGray,
+    Color::LightRed,
+    Color::LightGreen,
+    Color::LightYellow,
+    Color::LightBlue,
+    Color::LightMagenta,
+    Color::LightCyan,
+    Color::White,
+];
+
 fn wanted(buffer: &Buffer, x: u16, y: u16, limits: Limits) -> Seen {
     let cell = &buffer[(x, y)];
     let color = |color| match color {
         _ if limits.colorless => vt100::Color::Default,
+        Color::Reset => vt100::Color::Default,
         Color::Indexed(i) => vt100::Color::Idx(i),
-        Color::Cyan => vt100::Color::Idx(6),
-        Color::LightRed => vt100::Color::Idx(9),
         Color::Rgb(r, g, b) => vt100::Color::Rgb(r, g, b),
-        _ => vt100::Color::Default,
+        named => {
+            let at = NAMED.iter().position(|&n| n == named);
+            vt100::Color::Idx(at.expect("a colour") as u8)
+        }
     };
     let style =
         [Modifier::BOLD, Modifier::DIM, Modifier::REVERSED].map(|m| cell.modifier.contains(m));
@@ -134,15 +161,43 @@ proptest! {
 }
 
 #[test]
-fn a_half_block_costs_no_more_colours_than_it_needs() {
+fn the_explorers_screen_is_what_the_terminal_shows_cell_by_cell() {
+    for depth in ColorDepth::ALL {
+        for (palette, glyphs) in [
+            (Palette::Dark, Glyphs::Unicode),
+            (Palette::Light, Glyphs::Ascii),
+            (Palette::HighContrast, Glyphs::Unicode),
+        ] {
+            let options = Options {
+                depth,
+                palette,
+                glyphs,
+                ..Options::default()
+            };
+            let (scene, source) = Scene::open("trio").expect("a scene");
+            let mut explorer = Explorer::new(scene, &source, options);
+            let mut easel = Easel::new(100, 30, Limits::of(&options));
+            for key in "d2lbv.wb3Gv?x".chars() {
+                let key = KeyEvent::new(KeyCode::Char(key), KeyModifiers::NONE);
+                explorer.update(&Event::Key(key));
+                let mut buffer = Buffer::empty(Rect::new(0, 0, 100, 30));
+                explorer.prepare(100, 30);
+                let cursor = explorer.draw(&mut buffer);
+                easel.shows(&buffer, cursor);
+            }
+        }
+    }
+}
+
+#[test]
+fn what_does_not_show_costs_nothing() {
     let mut easel = Easel::new(30, 1, Limits::default());
     let mut buffer = Buffer::empty(Rect::new(0, 0, 30, 1));
     easel.shows(&buffer, None);
     let [red, blue] = [160, 20].map(Color::Indexed);
     buffer.set_string(0, 0, "▀", Style::new().fg(red).bg(blue));
-    buffer.set_string(1, 0, "▀", Style::new().fg(blue).bg(red));
-    buffer.set_string(2, 0, "▄", Style::new().fg(blue).bg(red));
-    buffer.set_string(3, 0, " ", Style::new().bg(red));
-    let frame = "\x1b[?2026h\x1b[1H\x1b[38;5;160;48;5;20m▀▄▀█\x1b[?2026l";
+    buffer.set_string(1, 0, "  ", Style::new().bg(blue));
+    buffer.set_string(3, 0, "▀", Style::new().fg(red).bg(blue));
+    let frame = "\x1b[?2026h\x1b[1H\x1b[38;5;160;48;5;20m▀  ▀\x1b[?2026l";
     assert_eq!(easel.shows(&buffer, None), frame.len());
 }

@@ -2,7 +2,7 @@
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
-use ratatui::style::Style as CellStyle;
+use ratatui::style::{Color, Style as CellStyle};
 use unicode_width::UnicodeWidthStr;
 
 use super::action::{Action, FOOTER, Group};
@@ -321,8 +321,13 @@ impl Explorer {
                     continue;
                 };
                 let (fg, bg) = (pen.theme.color(cell.fg), pen.theme.color(cell.bg));
+                let (glyph, fg, bg) = match cell.glyph {
+                    // A blank looks the same and takes a third of the bytes.
+                    '█' if fg != Color::Reset => (' ', Color::Reset, fg),
+                    glyph => (glyph, fg, bg),
+                };
                 pen.buffer[(x0 + col, y0 + row)]
-                    .set_char(cell.glyph)
+                    .set_char(glyph)
                     .set_style(CellStyle::new().fg(fg).bg(bg));
             }
         }

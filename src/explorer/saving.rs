@@ -1,5 +1,6 @@
 //! Opening and saving, and what is asked before something would be lost.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::Explorer;
@@ -42,6 +43,13 @@ impl Explorer {
     }
 
     pub(super) fn open(&mut self, name: &str) {
+        // A pipe or a device could be waited for without end.
+        let odd = |m: fs::Metadata| !m.is_file() && !m.is_dir();
+        if Builtin::by_name(name).is_none() && fs::metadata(name).is_ok_and(odd) {
+            return self.warn(format!(
+                "{name}: found no regular file, expected a scene file"
+            ));
+        }
         match Scene::open(name) {
             Ok((scene, source)) => {
                 self.leave_tour();

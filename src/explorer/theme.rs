@@ -163,9 +163,9 @@ impl Theme {
         Style::reset()
     }
 
-    /// Borders.
+    /// Borders, over whatever was there before.
     pub const fn border() -> Style {
-        Style::new().add_modifier(Modifier::DIM)
+        Style::reset().add_modifier(Modifier::DIM)
     }
 
     /// Headings and the names of keys.
@@ -185,7 +185,10 @@ impl Theme {
 
     /// The marks that say where the cursor is.
     pub fn mark(self) -> Style {
-        self.hue(Color::LightYellow).add_modifier(Modifier::BOLD)
+        // They stand in a border, which is faint.
+        self.hue(Color::LightYellow)
+            .add_modifier(Modifier::BOLD)
+            .remove_modifier(Modifier::DIM)
     }
 
     /// A colour of the picture.

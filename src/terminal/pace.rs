@@ -1,7 +1,8 @@
 //! When the next frame may go out: only as fast as the terminal deals with them.
 //!
 //! What is written goes into buffers on its way, of the kernel and of the network, that hold
-//! seconds of frames on a slow link. So each frame ends in a status query, and while too much is
+//! seconds of frames on a slow link. So each frame ends in a status query, small ones
+//! now and then, and while too much is
 //! unanswered the next frame waits: the state goes on, and the screen follows with the newest of
 //! it. A terminal that answers nothing is written to without asking.
 
@@ -11,6 +12,8 @@ use std::time::{Duration, Instant};
 /// Asks the terminal for its status; the answer tells that all before it has been dealt with.
 pub const QUERY: &[u8] = b"\x1b[5n";
 
+/// So many bytes may go out before the next query.
+const UNASKED: usize = 1024;
 /// So many bytes may be unanswered when a frame is started.
 const WINDOW: usize = 4096;
 /// A terminal that has never answered is given this long.
@@ -23,6 +26,8 @@ const NEXT_ANSWER: Duration = Duration::from_secs(5);
 pub struct Pace {
     /// Frames that are not answered: when they were written, and how long they are.
     unanswered: VecDeque<(Instant, usize)>,
+    /// The bytes of small frames since the last query.
+    unasked: usize,
     habit: Habit,
 }
 
@@ -35,15 +40,18 @@ enum Habit {
 }
 
 impl Pace {
-    /// Whether a query is worth its bytes.
-    pub fn asks(&self) -> bool {
-        self.habit != Habit::Silent
+    /// Whether a query at the end of a frame of so many bytes is worth its own.
+    pub fn asks(&self, bytes: usize) -> bool {
+        self.habit != Habit::Silent && self.unasked + bytes >= UNASKED
     }
 
     /// A frame of `bytes` has been handed over, with a query at its end if [`Pace::asks`].
     pub fn wrote(&mut self, bytes: usize, now: Instant) {
-        if self.asks() {
-            self.unanswered.push_back((now, bytes));
+        if self.asks(bytes) {
+            self.unanswered.push_back((now, self.unasked + bytes));
+            self.unasked = 0;
+        } else {
+            self.unasked += bytes;
         }
     }
 
@@ -82,6 +90,7 @@ impl Pace {
     /// Starts anew, as on a terminal that has been away.
     pub fn forget(&mut self) {
         self.unanswered.clear();
+        self.unasked = 0;
     }
 }
 
@@ -111,18 +120,37 @@ mod tests {
     }
 
     #[test]
+    fn small_frames_are_asked_about_together() {
+        let start = Instant::now();
+        let mut pace = Pace::default();
+        for _ in 0..3 {
+            assert!(!pace.asks(300));
+            pace.wrote(300, start);
+        }
+        assert!(!pace.is_waiting());
+        for _ in 0..3 {
+            assert!(pace.asks(3500));
+            pace.wrote(3500, start);
+            pace.answered();
+        }
+        pace.wrote(300, start);
+        pace.wrote(3900, start);
+        assert_eq!(pace.due(start), Some(start + NEXT_ANSWER), "both count");
+    }
+
+    #[test]
     fn a_terminal_that_answers_nothing_is_asked_no_more() {
         let start = Instant::now();
         let mut pace = Pace::default();
-        assert!(pace.asks());
+        assert!(pace.asks(5000));
         pace.wrote(5000, start);
         assert_eq!(pace.due(start), Some(start + FIRST_ANSWER));
         assert_eq!(pace.due(after(start, 1000)), None);
-        assert!(!pace.asks());
+        assert!(!pace.asks(5000));
         pace.wrote(5000, after(start, 1001));
         assert_eq!(pace.due(after(start, 1001)), None);
         pace.answered();
-        assert!(pace.asks(), "it was only late");
+        assert!(pace.asks(5000), "it was only late");
     }
 
     #[test]
@@ -134,6 +162,6 @@ mod tests {
         pace.wrote(5000, start);
         assert_eq!(pace.due(start), Some(start + NEXT_ANSWER));
         assert_eq!(pace.due(start + NEXT_ANSWER), None);
-        assert!(pace.asks());
+        assert!(pace.asks(5000));
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! ratatui's own backend for crossterm writes a cursor position for each run of changed cells and
 //! both colours wherever one changes. Over a slow link bytes are time, so this one writes the
-//! cheapest that looks the same: a half block upside down if that spares a colour, a blank where
-//! two halves are alike, the cells of a short gap again rather than a jump over it.
+//! cheapest that shows the same cells: no colour that does not show, the shortest way to the next
+//! cell, the cells of a short gap again rather than a jump over it.
 
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Position;
@@ -96,12 +96,11 @@ impl Painter {
         }
         let mut pen = Pen {
             out: &mut self.out,
-            limits,
             at: self.at,
             ink: self.ink,
         };
-        for y in next.area.top()..next.area.bottom() {
-            paint_row(&mut pen, &self.shown, next, y);
+        for row in changed_rows(&self.shown, next, limits) {
+            pen.paint(&row);
         }
         if let Some(position) = cursor {
             pen.go(position, &[]);
@@ -125,11 +124,10 @@ impl Painter {
     }
 }
 
-/// What a cell looks like, whatever it is made of.
+/// What a cell looks like. Two that look the same are the same: what does not show is left at its
+/// default.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Look<'a> {
-    /// An upper and a lower half, each of one colour.
-    Halves(Paint, Paint),
     /// Characters.
     Text {
         symbol: &'a str,
@@ -141,124 +139,51 @@ enum Look<'a> {
     Covered,
 }
 
-/// The colour of half a cell. The terminal's own two colours are known by their names only.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Paint {
-    Foreground,
-    Background,
-    Color(Color),
-}
-
-impl Paint {
-    fn of_fg(color: Color) -> Self {
-        match color {
-            Color::Reset => Self::Foreground,
-            color => Self::Color(color),
-        }
-    }
-
-    fn of_bg(color: Color) -> Self {
-        match color {
-            Color::Reset => Self::Background,
-            color => Self::Color(color),
-        }
-    }
-
-    /// The colour to set for a foreground that looks like this, if there is one.
-    const fn as_fg(self) -> Option<Color> {
-        match self {
-            Self::Foreground => Some(Color::Reset),
-            Self::Background => None,
-            Self::Color(color) => Some(color),
-        }
-    }
-
-    const fn as_bg(self) -> Option<Color> {
-        match self {
-            Self::Foreground => None,
-            Self::Background => Some(Color::Reset),
-            Self::Color(color) => Some(color),
-        }
-    }
-}
-
 impl<'a> Look<'a> {
     fn of(cell: &'a Cell, limits: Limits) -> Self {
-        let (mut fg, mut bg) = (cell.fg, cell.bg);
-        if limits.colorless {
-            (fg, bg) = (Color::Reset, Color::Reset);
-        }
         let symbol = match cell.symbol() {
             "" => " ",
             symbol if limits.ascii && !symbol.is_ascii() => "?",
             symbol => symbol,
         };
-        let modifier = cell.modifier;
-        let halves = |upper, lower| Self::Halves(upper, lower);
-        match symbol {
-            " " if !modifier.intersects(SEEN_ON_BLANKS) => {
-                halves(Paint::of_bg(bg), Paint::of_bg(bg))
-            }
-            "▀" if modifier.is_empty() => halves(Paint::of_fg(fg), Paint::of_bg(bg)),
-            "▄" if modifier.is_empty() => halves(Paint::of_bg(bg), Paint::of_fg(fg)),
-            "█" if modifier.is_empty() => halves(Paint::of_fg(fg), Paint::of_fg(fg)),
-            _ => Self::Text {
-                symbol,
-                fg,
-                bg,
-                modifier,
-            },
+        let (mut fg, mut bg, mut modifier) = (cell.fg, cell.bg, cell.modifier);
+        if limits.colorless {
+            (fg, bg) = (Color::Reset, Color::Reset);
+        }
+        if symbol == " " && !modifier.intersects(SEEN_ON_BLANKS) {
+            (fg, modifier) = (Color::Reset, Modifier::empty());
+        }
+        Self::Text {
+            symbol,
+            fg,
+            bg,
+            modifier,
         }
     }
 
-    /// The ways to write it: a character and what it wants of the pen.
-    fn ways(self, limits: Limits) -> impl Iterator<Item = (&'a str, Want)> {
-        let halves = |symbol, fg: Option<Option<Color>>, bg: Option<Option<Color>>| {
-            // An outer none is a colour that does not show, an inner none one that can't be had.
-            let fg = fg.map_or(Some(None), |c| c.map(Some))?;
-            let bg = bg.map_or(Some(None), |c| c.map(Some))?;
-            let touches = if symbol == " " {
+    /// The characters to write, and what they want of the pen; nothing where nothing is to write.
+    fn written(self) -> Option<(&'a str, Want)> {
+        let Self::Text {
+            symbol,
+            fg,
+            bg,
+            modifier,
+        } = self
+        else {
+            return None;
+        };
+        let blank = symbol == " " && !modifier.intersects(SEEN_ON_BLANKS);
+        let want = Want {
+            fg: (!blank).then_some(fg),
+            bg: Some(bg),
+            modifier,
+            touches: if blank {
                 SEEN_ON_BLANKS
             } else {
                 Modifier::all()
-            };
-            let modifier = Modifier::empty();
-            Some((
-                symbol,
-                Want {
-                    fg,
-                    bg,
-                    modifier,
-                    touches,
-                },
-            ))
+            },
         };
-        let ways = match self {
-            Self::Covered => [None, None],
-            Self::Text {
-                symbol,
-                fg,
-                bg,
-                modifier,
-            } => {
-                let want = Want {
-                    fg: Some(fg),
-                    bg: Some(bg),
-                    modifier,
-                    touches: Modifier::all(),
-                };
-                [Some((symbol, want)), None]
-            }
-            Self::Halves(upper, lower) if upper == lower => [
-                halves(" ", None, Some(upper.as_bg())),
-                halves("█", Some(upper.as_fg()), None).filter(|_| !limits.ascii),
-            ],
-            Self::Halves(upper, lower) => [
-                halves("▀", Some(upper.as_fg()), Some(lower.as_bg())),
-                halves("▄", Some(lower.as_fg()), Some(upper.as_bg())),
-            ],
-        };
-        ways.into_iter().flatten()
+        Some((symbol, want))
     }
 }
 
@@ -297,10 +222,32 @@ impl Ink {
 /// Writes at a place with an ink.
 struct Pen<'a> {
     out: &'a mut Vec<u8>,
-    limits: Limits,
     /// Where the terminal's cursor is, if that is known.
     at: Option<Position>,
     ink: Ink,
+}
+
+/// A row of which something changed: where it starts, and how it looked and looks.
+struct Row<'a> {
+    start: Position,
+    before: Vec<Look<'a>>,
+    after: Vec<Look<'a>>,
+}
+
+fn changed_rows<'a>(
+    shown: &'a Buffer,
+    next: &'a Buffer,
+    limits: Limits,
+) -> impl Iterator<Item = Row<'a>> {
+    let width = usize::from(next.area.width);
+    let cells = move |buffer: &'a Buffer, i: usize| &buffer.content[i * width..(i + 1) * width];
+    let rows = (next.area.top()..next.area.bottom()).enumerate();
+    let changed = rows.filter(move |&(i, _)| cells(shown, i) != cells(next, i));
+    changed.map(move |(_, y)| Row {
+        start: Position::new(next.area.x, y),
+        before: looks(shown, y, limits).collect(),
+        after: looks(next, y, limits).collect(),
+    })
 }
 
 /// Looks at a row from the left, with the right halves of wide characters told apart.
@@ -320,40 +267,33 @@ fn looks(buffer: &Buffer, y: u16, limits: Limits) -> impl Iterator<Item = Look<'
     })
 }
 
-fn paint_row(pen: &mut Pen<'_>, shown: &Buffer, next: &Buffer, y: u16) {
-    let row = |buffer: &Buffer| {
-        let width = usize::from(buffer.area.width);
-        let start = usize::from(y - buffer.area.y) * width;
-        start..start + width
-    };
-    if shown.content[row(shown)] == next.content[row(next)] {
-        return;
-    }
-    let before: Vec<_> = looks(shown, y, pen.limits).collect();
-    let after: Vec<_> = looks(next, y, pen.limits).collect();
-    for (i, look) in after.iter().enumerate() {
-        if *look == before[i] || *look == Look::Covered {
-            continue;
-        }
-        let place = Position::new(next.area.x + i as u16, y);
-        pen.go(place, &after);
-        pen.write(*look);
-        if place.x + 1 == next.area.right() {
-            // The cursor stays on the last column, or is past it: terminals differ.
-            pen.at = None;
-        }
-    }
-}
-
 impl Pen<'_> {
-    /// Writes a cell in the way that takes the fewest bytes.
+    /// Paints the changed cells of a row.
+    fn paint(&mut self, row: &Row<'_>) {
+        let end = row.start.x + row.after.len() as u16;
+        let pairs = row.before.iter().zip(&row.after).enumerate();
+        for (i, (_, &look)) in pairs.filter(|(_, (before, after))| before != after) {
+            if look == Look::Covered {
+                continue;
+            }
+            self.go(
+                Position::new(row.start.x + i as u16, row.start.y),
+                &row.after,
+            );
+            self.write(look);
+            if self.at.is_some_and(|at| at.x >= end) {
+                // The cursor stays on the last column, or is past it: terminals differ.
+                self.at = None;
+            }
+        }
+    }
+
+    /// Writes a cell.
     fn write(&mut self, look: Look<'_>) {
-        let ways = look
-            .ways(self.limits)
-            .map(|(symbol, want)| (self.change(want), symbol, want));
-        let Some((change, symbol, want)) = ways.min_by_key(|(c, s, _)| c.len() + s.len()) else {
+        let Some((symbol, want)) = look.written() else {
             return;
         };
+        let change = self.change(want);
         self.out.extend_from_slice(&change);
         self.ink = self.ink.after(want);
         self.out.extend_from_slice(symbol.as_bytes());
@@ -402,8 +342,7 @@ impl Pen<'_> {
         }
         let mut bytes = Vec::new();
         for look in &row[usize::from(at.x)..usize::from(to.x)] {
-            let mut ways = look.ways(self.limits);
-            let (symbol, _) = ways.find(|&(_, want)| self.ink.suits(want))?;
+            let (symbol, _) = look.written().filter(|&(_, want)| self.ink.suits(want))?;
             bytes.extend_from_slice(symbol.as_bytes());
         }
         Some(bytes)

@@ -291,10 +291,11 @@ impl Link for Session {
         if self.frame.is_empty() {
             return Ok(());
         }
-        if self.pace.asks() {
+        let bytes = self.frame.len();
+        if self.pace.asks(bytes) {
             self.frame.extend_from_slice(QUERY);
         }
-        self.pace.wrote(self.frame.len(), Instant::now());
+        self.pace.wrote(bytes, Instant::now());
         self.flush()
     }
 

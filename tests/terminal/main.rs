@@ -2,6 +2,7 @@
 
 mod pty;
 mod seen;
+mod ssh;
 
 use std::fs;
 

@@ -1,42 +1,25 @@
-//! What a person sees in a cell, however it was written: a half block upside down with its colours
-//! exchanged looks the same.
+//! What a person sees in a cell: the colour of a blank's characters does not show.
 
 use vt100::Color;
 
-/// The look of one cell.
+/// The look of one cell: characters in a colour on a colour; bold, dim, reversed.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Seen {
-    /// An upper and a lower half.
-    Halves(Paint, Paint),
-    /// Characters in a colour on a colour; bold, dim, reversed.
-    Text(String, Color, Color, [bool; 3]),
-}
-
-/// The colour of a half.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Paint {
-    Foreground,
-    Background,
-    Color(Color),
+pub struct Seen {
+    symbol: String,
+    fg: Color,
+    bg: Color,
+    style: [bool; 3],
 }
 
 impl Seen {
     pub fn new(symbol: &str, fg: Color, bg: Color, style: [bool; 3]) -> Self {
-        let ink = match fg {
-            Color::Default => Paint::Foreground,
-            color => Paint::Color(color),
-        };
-        let paper = match bg {
-            Color::Default => Paint::Background,
-            color => Paint::Color(color),
-        };
-        let plain = style == [false; 3];
-        match symbol {
-            "" | " " if !style[2] => Self::Halves(paper, paper),
-            "▀" if plain => Self::Halves(ink, paper),
-            "▄" if plain => Self::Halves(paper, ink),
-            "█" if plain => Self::Halves(ink, ink),
-            _ => Self::Text(symbol.to_owned(), fg, bg, style),
+        let symbol = if symbol.is_empty() { " " } else { symbol };
+        let shows = symbol != " " || style[2];
+        Self {
+            symbol: symbol.to_owned(),
+            fg: if shows { fg } else { Color::Default },
+            bg,
+            style: if shows { style } else { [false; 3] },
         }
     }
 }

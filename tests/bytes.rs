@@ -1,0 +1,192 @@
+//! What a key costs on the way to the terminal, in bytes of the real encoder. Bytes do not depend
+//! on the machine: they are held here to budgets, and to the table of docs/terminal.md.
+
+use std::fmt::Write as _;
+use std::fs;
+
+use ratatui::buffer::Buffer;
+use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
+use ratatui::layout::Rect;
+use rayscope::explain::Glyphs;
+use rayscope::explorer::{Explorer, Options};
+use rayscope::render::{ColorDepth, Style};
+use rayscope::scene::Scene;
+use rayscope::terminal::{Limits, Painter};
+
+/// An explorer on a terminal of which only the line to it is looked at.
+struct Wire {
+    explorer: Explorer,
+    painter: Painter,
+    size: (u16, u16),
+    /// The columns whose cells count; the others are left blank.
+    columns: u16,
+}
+
+impl Wire {
+    fn opens(size: (u16, u16), columns: u16, options: Options) -> Self {
+        let (scene, source) = Scene::open("trio").expect("a scene");
+        let mut wire = Self {
+            explorer: Explorer::new(scene, &source, options),
+            painter: Painter::default(),
+            size,
+            columns,
+        };
+        wire.draws();
+        wire
+    }
+
+    /// How many bytes bring the screen up to date.
+    fn draws(&mut self) -> usize {
+        let (cols, rows) = self.size;
+        let mut buffer = Buffer::empty(Rect::new(0, 0, cols, rows));
+        self.explorer.prepare(cols, rows);
+        let cursor = self.explorer.draw(&mut buffer);
+        for y in 0..rows {
+            for x in self.columns..cols {
+                buffer[(x, y)].reset();
+            }
+        }
+        let limits = Limits::of(&self.explorer.options());
+        self.painter.paint(&mut buffer, cursor, limits).len()
+    }
+
+    /// How many bytes a key costs.
+    fn presses(&mut self, code: KeyCode) -> usize {
+        let event = Event::Key(KeyEvent::new(code, KeyModifiers::NONE));
+        self.explorer.update(&event);
+        self.draws()
+    }
+}
+
+const SMALL: (u16, u16) = (80, 24);
+const LARGE: (u16, u16) = (200, 60);
+
+fn half() -> Options {
+    Options::default()
+}
+
+fn ascii() -> Options {
+    Options {
+        style: Style::Ascii,
+        depth: ColorDepth::None,
+        glyphs: Glyphs::Ascii,
+        ..Options::default()
+    }
+}
+
+/// How many columns the picture takes, with its border.
+fn picture((cols, _): (u16, u16)) -> u16 {
+    if cols == SMALL.0 { 42 } else { 142 }
+}
+
+/// The dearest of all steps that the camera can take from where it opens.
+fn camera_step(size: (u16, u16), columns: u16, options: Options) -> usize {
+    let keys = "adwsADWSeE+-".chars();
+    let costs = keys.map(|key| Wire::opens(size, columns, options).presses(KeyCode::Char(key)));
+    costs.max().expect("a key")
+}
+
+/// The cost of a step of the orbit, half of which cost less, on the way about the scene.
+fn orbit_step(size: (u16, u16), columns: u16, options: Options) -> usize {
+    let mut wire = Wire::opens(size, columns, options);
+    let mut costs: Vec<_> = (0..12).map(|_| wire.presses(KeyCode::Char('d'))).collect();
+    costs.sort_unstable();
+    costs[costs.len() / 2]
+}
+
+/// The cost of a cursor step, half of which cost less, on a walk over all three spheres.
+fn cursor_step(size: (u16, u16), options: Options) -> usize {
+    let mut wire = Wire::opens(size, size.0, options);
+    let walk = [KeyCode::Right, KeyCode::Down, KeyCode::Left, KeyCode::Left];
+    let mut costs: Vec<_> = (0..36).map(|i| wire.presses(walk[i / 3 % 4])).collect();
+    costs.sort_unstable();
+    costs[costs.len() / 2]
+}
+
+#[test]
+fn a_step_keeps_to_its_budget() {
+    for (what, size, options, budget) in [
+        ("half blocks", SMALL, half(), 2500),
+        ("ASCII", SMALL, ascii(), 700),
+        ("half blocks", LARGE, half(), 9000),
+    ] {
+        for bytes in [
+            camera_step(size, size.0, options),
+            orbit_step(size, size.0, options),
+        ] {
+            assert!(bytes <= budget, "{what} at {size:?}: {bytes} bytes");
+        }
+    }
+    // The panels that a large screen has room for come on top of it; the table has both.
+    let bytes = orbit_step(LARGE, picture(LARGE), ascii());
+    assert!(
+        bytes <= 2300,
+        "the picture in ASCII at {LARGE:?}: {bytes} bytes"
+    );
+    for options in [half(), ascii()] {
+        let bytes = cursor_step(SMALL, options);
+        // 0.3 KB of 1024 bytes.
+        assert!(bytes <= 307, "a cursor step: {bytes} bytes");
+    }
+}
+
+#[test]
+fn what_changes_nothing_sends_nothing() {
+    for size in [SMALL, LARGE] {
+        let mut wire = Wire::opens(size, size.0, half());
+        assert_eq!(wire.draws(), 0);
+        wire.presses(KeyCode::Char('d'));
+        assert_eq!(wire.draws(), 0);
+    }
+}
+
+#[test]
+fn the_table_of_the_docs_is_what_the_encoder_writes() {
+    let mut table = String::from(
+        "| style | colours | 80×24: camera | its picture | cursor | 200×60: camera | its picture | cursor |\n\
+         |---|---|--:|--:|--:|--:|--:|--:|\n",
+    );
+    for style in Style::ALL {
+        for depth in ColorDepth::ALL.into_iter().rev() {
+            let options = Options {
+                style,
+                depth,
+                ..Options::default()
+            };
+            // Writing to a string does not fail.
+            let _ = write!(table, "| {} | {} |", style.name(), depth.name());
+            for size in [SMALL, LARGE] {
+                let _ = write!(
+                    table,
+                    " {} | {} | {} |",
+                    camera_step(size, size.0, options),
+                    camera_step(size, picture(size), options),
+                    cursor_step(size, options),
+                );
+            }
+            table.push('\n');
+        }
+    }
+    hold_to_docs("docs/terminal.md", "bytes", &table);
+}
+
+/// What stands between the marks `NAME` and `end of NAME` of a page is `text`.
+fn hold_to_docs(page: &str, name: &str, text: &str) {
+    let path = format!("{}/{page}", env!("CARGO_MANIFEST_DIR"));
+    let whole = fs::read_to_string(&path).expect("the page");
+    let marks = [
+        format!("<!-- {name} -->\n"),
+        format!("<!-- end of {name} -->"),
+    ];
+    let (before, rest) = whole.split_once(&marks[0]).expect("the first mark");
+    let (found, after) = rest.split_once(&marks[1]).expect("the last mark");
+    if std::env::var_os("RAYSCOPE_UPDATE_DOCS").is_some() {
+        let fresh = format!("{before}{}{text}{}{after}", marks[0], marks[1]);
+        fs::write(path, fresh).expect("the page written");
+    } else {
+        assert_eq!(
+            found, text,
+            "RAYSCOPE_UPDATE_DOCS=1 cargo test rewrites {page}"
+        );
+    }
+}
