@@ -4,7 +4,7 @@ use std::io::{self, ErrorKind, IsTerminal, Write};
 use std::os::fd::AsFd;
 use std::sync::mpsc;
 
-use rustix::event::{PollFd, PollFlags, poll};
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::io::{Errno, read};
 use rustix::stdio::stdin;
 
@@ -43,8 +43,12 @@ pub fn converse(explorer: &mut Explorer, present: bool) -> io::Result<u8> {
         if left {
             reply.question = None;
         }
-        if !say(&reply, present && status.is_none())? {
-            return Ok(0);
+        match say(&reply, present && status.is_none()) {
+            Ok(true) => {}
+            Ok(false) => return Ok(0),
+            // The terminal is closed.
+            Err(e) if Errno::from_io_error(&e) == Some(Errno::IO) => return Ok(HUNG_UP),
+            Err(e) => return Err(e),
         }
         let status = match status {
             Some(status) => Some(status),
@@ -183,6 +187,8 @@ impl Lines {
         }
         let mut bytes = [0; READ_BYTES];
         match read(stdin(), &mut bytes) {
+            // A terminal that went away after the question reads as one where ctrl-d was pressed.
+            Ok(0) if self.is_terminal && is_hung_up()? => return Ok(Some(HUNG_UP)),
             Ok(0) => self.is_over = true,
             Ok(n) => self.pending.extend_from_slice(&bytes[..n]),
             Err(Errno::INTR | Errno::AGAIN) => {}
@@ -192,4 +198,12 @@ impl Lines {
         }
         Ok(None)
     }
+}
+
+/// Whether the terminal is gone.
+fn is_hung_up() -> io::Result<bool> {
+    let mut input = [PollFd::from_borrowed_fd(stdin(), PollFlags::empty())];
+    poll(&mut input, Some(&Timespec::default()))?;
+    let gone = PollFlags::HUP | PollFlags::ERR;
+    Ok(input[0].revents().intersects(gone))
 }

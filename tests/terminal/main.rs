@@ -280,11 +280,11 @@ fn a_terminal_that_answers_no_query_works_all_the_same() {
     pty.answers_nothing();
     pty.waits_to_show("ray of pixel");
     pty.sends(&"d".repeat(30));
-    pty.sends(":cursor 5 5\r");
+    pty.sends("x:cursor 5 5\r");
     pty.waits_to_show("(5, 5)");
     pty.sends("q");
     pty.waits_to_show("Unsaved");
-    pty.sends("q");
+    pty.sends("D");
     assert_eq!(pty.ends(), 0);
     pty.is_restored();
 }

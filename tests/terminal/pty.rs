@@ -11,6 +11,7 @@ use std::time::{Duration, Instant};
 
 use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
 use rustix::process::{Pid, Signal, kill_process};
+use rustix::termios::{self, OptionalActions, SpecialCodeIndex};
 use tempfile::TempDir;
 
 /// How long anything may take before it counts as not happening.
@@ -314,6 +315,7 @@ impl Pty {
         } = self;
         drop(reader.chunks);
         reader.thread.join().expect("the reader");
+        forget_end_of_file(&*master);
         drop(writer);
         drop(master);
         child.status()
@@ -384,4 +386,14 @@ impl Drop for Running {
 /// How the terminal treats what is typed and written.
 fn settings(master: &dyn MasterPty) -> String {
     format!("{:?}", master.get_termios())
+}
+
+/// Lets no character end the input: a writer that is dropped would send it, and a terminal that hangs
+/// up sends nothing.
+fn forget_end_of_file(master: &dyn MasterPty) {
+    let name = master.tty_name().expect("a terminal's name");
+    let terminal = std::fs::File::open(name).expect("the terminal");
+    let mut modes = termios::tcgetattr(&terminal).expect("its modes");
+    modes.special_codes[SpecialCodeIndex::VEOF] = 0;
+    termios::tcsetattr(&terminal, OptionalActions::Now, &modes).expect("its modes taken");
 }
