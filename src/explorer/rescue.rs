@@ -292,9 +292,9 @@ mod tests {
             explorer.update(&Event::Key(interrupt));
             assert_eq!(explorer.ended(), Some(130));
             assert_eq!(explorer.finish().unwrap().iter().count(), kept, "{keys}");
-            fs::read_dir(folder)
-                .unwrap()
-                .for_each(|file| fs::remove_file(file.unwrap().path()).unwrap());
+            for file in fs::read_dir(folder).unwrap() {
+                fs::remove_file(file.unwrap().path()).unwrap();
+            }
         }
     }
 

@@ -308,18 +308,20 @@ impl Stand<'_> {
     /// Whether a frame without the plan would take over a minute, going by that of fewer spheres: of the
     /// row before, or of the first few.
     fn would_be_too_long(&self, smaller: Option<Row>) -> bool {
-        let (spheres, ms) = match smaller {
-            Some(row) => (row.spheres, row.no_plan_ms),
-            None => {
-                let few = self.few();
-                let start = self.clock.now();
-                Frame::new().render_all(&few, &self.rays, self.method, View::Shade);
-                let taken = milliseconds(self.clock.now().saturating_sub(start));
-                (few.bodies.len(), Some(taken))
-            }
-        };
+        let (spheres, ms) = smaller.map_or_else(
+            || self.time_without_plan(&self.few()),
+            |row| (row.spheres, row.no_plan_ms),
+        );
         let factor = self.scenes[0].bodies.len() as f64 / spheres.max(1) as f64;
         ms.is_none_or(|ms| ms * factor > TOO_LONG)
+    }
+
+    /// The spheres of a scene, and the milliseconds that one frame of it takes without the plan.
+    fn time_without_plan(&self, scene: &Scene) -> (usize, Option<f64>) {
+        let start = self.clock.now();
+        Frame::new().render_all(scene, &self.rays, self.method, View::Shade);
+        let taken = milliseconds(self.clock.now().saturating_sub(start));
+        (scene.bodies.len(), Some(taken))
     }
 
     /// The scene with its first spheres only.
