@@ -8,8 +8,8 @@ use clap::{Args, ValueEnum};
 use super::progress::{INTERRUPTED, Progress};
 use super::{INVALID, choice, complain, save, write_out};
 use crate::lab::bench::{self, MOST_TIMED, Plan, Report, Sample};
-use crate::lab::timing::{Schedule, SystemClock};
-use crate::lab::{Family, Machine, plot};
+use crate::lab::timing::{Schedule, SelfCheck, SystemClock};
+use crate::lab::{Alone, Family, Machine, plot};
 use crate::method::Method;
 use crate::render::{CELL_ASPECT, Style, fit};
 use crate::scene::{Rays, Scene};
@@ -49,9 +49,9 @@ pub(super) struct Bench {
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 
-    /// Text: also the inputs of the largest errors, in hexadecimal floats
+    /// Text: leave out the inputs of the largest errors
     #[arg(long)]
-    worst: bool,
+    brief: bool,
 
     /// Exit with status 1 if a self-check of the timing fails
     #[arg(long)]
@@ -88,13 +88,22 @@ pub(super) fn run(arguments: &Bench) -> ExitCode {
             return ExitCode::from(INVALID);
         }
     };
-    let report = bench::run(
+    // Where that can't be found out, the other self-checks have to do.
+    let alone = Alone::take();
+    let mut report = bench::run(
         plan(arguments),
         &samples,
         arguments.seed,
         &SystemClock::new(),
         |number, name| progress.go_on(number, name),
     );
+    report.self_checks.extend(
+        alone
+            .as_ref()
+            .ok()
+            .map(|alone| SelfCheck::alone(alone.is_some())),
+    );
+    drop(alone);
     progress.clear();
     let drawn = save(arguments.plot.as_deref(), || {
         plot::work_precision(&report, &Machine::detect())
@@ -151,9 +160,9 @@ fn samples(arguments: &Bench) -> Result<Vec<Sample>, String> {
 fn in_format(report: &Report, arguments: &Bench) -> Result<String, String> {
     let machine = Machine::detect();
     match arguments.format {
-        Format::Text => Ok(bench::table(report, &machine, arguments.worst)),
+        Format::Text => Ok(bench::table(report, &machine, !arguments.brief)),
         Format::Markdown => Ok(bench::markdown(report, &machine)),
-        Format::Csv => bench::csv(report).map_err(|e| format!("CSV: {e}")),
+        Format::Csv => bench::csv(report, &machine).map_err(|e| format!("CSV: {e}")),
         Format::Json => bench::json(report, &machine).map_err(|e| format!("JSON: {e}")),
     }
 }
