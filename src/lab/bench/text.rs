@@ -227,13 +227,16 @@ pub(crate) fn wrapped(text: &str) -> String {
     out + "\n"
 }
 
-/// The report in Markdown: two overviews; for each set a table of errors, which are the same
+/// The report in Markdown: overviews of errors and times; for each set a table of errors, which are the same
 /// everywhere, and one of times, which are not.
 pub fn markdown(report: &Report, machine: &Machine) -> String {
     let mut out = format!("```text\n{}```\n\n", header(report, machine));
     out += &error_overview(report);
     out.push('\n');
-    out += &time_overview(report);
+    out += "One by one:\n\n";
+    out += &time_overview(report, |times| ways(times)[0]);
+    out += "\nIn arrays:\n\n";
+    out += &time_overview(report, |times| ways(times)[1]);
     for chapter in &report.chapters {
         let _ = write!(out, "\n### {}\n\n{}\n\n", chapter.name, chapter.about);
         out += &error_table(chapter);
@@ -286,14 +289,11 @@ pub fn error_overview(report: &Report) -> String {
     })
 }
 
-/// The median time of one solve among many, in ns, and how many times that of `textbook` it is.
-fn time_overview(report: &Report) -> String {
+/// The median time of one solve in ns, and how many times that of `textbook` it is.
+fn time_overview(report: &Report, way: fn(&Times) -> (Nanoseconds, f64)) -> String {
     overview(report, |_, row| {
-        let times = &row.times;
-        format!(
-            "{:.0} ({:.2})",
-            times.throughput.median, times.throughput_ratio
-        )
+        let (ns, ratio) = way(&row.times);
+        format!("{} ({ratio:.2})", brief(ns.median))
     })
 }
 
