@@ -7,8 +7,11 @@ use std::time::{Duration, Instant};
 
 use proptest::prelude::*;
 use ratatui::buffer::Buffer;
-use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
+use ratatui::crossterm::event::{
+    Event, KeyCode, KeyEvent, KeyModifiers, MouseButton, MouseEvent, MouseEventKind,
+};
 use ratatui::layout::Rect;
+use ratatui::style::Color;
 use rayscope::explorer::action::{Action, markdown};
 use rayscope::explorer::{Explorer, Options, Request, Waker};
 use rayscope::geometry::Ray;
@@ -255,6 +258,103 @@ fn a_typed_number_is_held_to_what_a_scene_file_may_say() {
 }
 
 #[test]
+fn it_does_not_matter_how_many_keys_come_before_a_drawing() {
+    for keys in [
+        "c T",
+        "tab delete T space ;",
+        "right down T",
+        "b right shift-down",
+        "d d t right t",
+        "tab i T ; space",
+        "enter . . d . > ,",
+        "P enter . + . = esc",
+    ] {
+        let mut slow = Person::opens("trio", 80, 24);
+        let mut fast = Person::opens("trio", 80, 24);
+        slow.presses(keys);
+        for key in keys.split_whitespace() {
+            fast.explorer.update(&key_event(key));
+        }
+        fast.screen();
+        assert_eq!(slow.explorer.scene(), fast.explorer.scene(), "{keys}");
+        assert_eq!(slow.explorer.cursor(), fast.explorer.cursor(), "{keys}");
+        assert_eq!(slow.screen(), fast.screen(), "{keys}");
+    }
+}
+
+#[test]
+fn colours_and_theme_change_by_a_key_and_help_says_why_they_are_so() {
+    let mut person = Person::opens("trio", 80, 24);
+    person
+        .presses("?")
+        .shows("# colours            256 (the usual)");
+    person.presses("esc # ?").shows("24 bits (chosen here)");
+    person.presses("esc @ ?").shows("light (chosen here)");
+    person.presses("esc").commands("theme monochrome");
+    person
+        .commands("color 16")
+        .shows("the theme monochrome uses none");
+    let mut buffer = Buffer::empty(Rect::new(0, 0, 80, 24));
+    person.explorer.prepare(80, 24);
+    person.explorer.draw(&mut buffer);
+    for cell in &buffer.content {
+        assert_eq!((cell.fg, cell.bg), (Color::Reset, Color::Reset));
+    }
+    person
+        .commands("theme pink")
+        .shows("expected one of dark, light, high-contrast");
+}
+
+#[test]
+fn the_mouse_is_heeded_once_it_is_asked_for() {
+    let mouse = |kind, column, row| {
+        let modifiers = KeyModifiers::NONE;
+        Event::Mouse(MouseEvent {
+            kind,
+            column,
+            row,
+            modifiers,
+        })
+    };
+    let click = |column, row| mouse(MouseEventKind::Down(MouseButton::Left), column, row);
+    let mut person = Person::opens("seed", 80, 24);
+    let before = person.explorer.cursor();
+    assert!(!person.explorer.update(&click(1, 2)));
+    assert_eq!(person.explorer.cursor(), before);
+
+    person.presses("$");
+    assert!(person.explorer.wants_mouse());
+    assert!(
+        person.explorer.update(&click(1, 2)),
+        "the cell at the top left"
+    );
+    assert_eq!(person.explorer.cursor(), (0, 0));
+    person.explorer.update(&click(31, 13));
+    assert_eq!(person.explorer.cursor(), (30, 22));
+    for outside in [(0, 0), (41, 5), (60, 10), (5, 23), (79, 23)] {
+        person.explorer.update(&click(outside.0, outside.1));
+        assert_eq!(
+            person.explorer.cursor(),
+            (30, 22),
+            "{outside:?} is no pixel"
+        );
+    }
+    let window = |person: &Person| person.explorer.scene().camera.projection;
+    let seen = window(&person);
+    person
+        .explorer
+        .update(&mouse(MouseEventKind::ScrollUp, 5, 5));
+    assert_ne!(window(&person), seen);
+    person.presses("u ?");
+    person
+        .explorer
+        .update(&mouse(MouseEventKind::ScrollDown, 5, 5));
+    assert_eq!(window(&person), seen, "the wheel scrolls the help page");
+    person.presses("esc $");
+    assert!(!person.explorer.wants_mouse());
+}
+
+#[test]
 fn quitting_asks_only_if_something_would_be_lost() {
     let mut person = Person::opens("seed", 80, 24);
     person.presses("right q");
@@ -386,6 +486,15 @@ fn moving_on_keeps_the_step_and_marks_what_changed() {
     person.shows("= 301");
     person.shows("[C*]");
     person.shows(" A ");
+    // A miss has no roots, and other methods have other steps before the same one.
+    person.commands("step near").shows("step 15 of 23: near");
+    person.commands("cursor 20 35").presses("m");
+    person.commands("cursor 20 20").shows(": near");
+    person
+        .commands("step verdict")
+        .commands("cursor 20 35")
+        .shows(": verdict");
+    person.commands("step D").presses("M").shows(": Δ");
 }
 
 #[test]
@@ -721,6 +830,8 @@ fn hold_to_docs(page: &str, name: &str, text: &str) {
 #[derive(Debug, Clone)]
 enum Deed {
     Press(usize),
+    /// Several keys before the next look at the screen.
+    Rush(Vec<usize>),
     Type(char),
     Special(&'static str),
     Resize(u16, u16),
@@ -732,7 +843,8 @@ fn deed() -> impl Strategy<Value = Deed> {
     // the walk early. They have tests of their own.
     let keys = 0..Action::ALL.len();
     prop_oneof![
-        8 => keys.prop_map(Deed::Press),
+        8 => keys.clone().prop_map(Deed::Press),
+        4 => prop::collection::vec(keys, 2..8).prop_map(Deed::Rush),
         2 => any::<char>().prop_map(Deed::Type),
         2 => prop::sample::select(vec!["enter", "esc", "tab", "backspace", "up", "down"])
             .prop_map(Deed::Special),
@@ -758,6 +870,14 @@ proptest! {
                         person.presses(key);
                     }
                 }
+                Deed::Rush(all) => {
+                    let all = all.into_iter().map(|at| Action::ALL[at]);
+                    for action in all.filter(|&a| !writes(a)) {
+                        if let Some(key) = action.keys().first() {
+                            person.explorer.update(&key_event(key));
+                        }
+                    }
+                }
                 Deed::Type(c) => {
                     person.types(&c.to_string());
                 }
@@ -773,6 +893,162 @@ proptest! {
             let scene = person.explorer.scene();
             prop_assert!(scene.camera.check().is_ok());
             prop_assert!(scene.bodies.iter().all(|b| b.sphere.radius >= 0.0));
+        }
+    }
+}
+
+/// A move that can be taken back.
+#[derive(Debug, Clone, Copy)]
+enum Move {
+    /// To another step; with `.`, `,`, `<` or `>`.
+    Step(&'static str),
+    /// To the panel of that key.
+    Panel(&'static str),
+    /// The cursor by a key, and the key that moves it back.
+    Cursor(&'static str, &'static str),
+    /// The camera.
+    Camera(&'static str),
+    /// Another method or view, and the key that turns back.
+    Turn(&'static str, &'static str),
+}
+
+fn any_move() -> impl Strategy<Value = Move> {
+    prop::sample::select(vec![
+        Move::Step("."),
+        Move::Step("enter"),
+        Move::Step(","),
+        Move::Step("<"),
+        Move::Step(">"),
+        Move::Panel("1"),
+        Move::Panel("2"),
+        Move::Panel("3"),
+        Move::Panel("4"),
+        Move::Panel("5"),
+        Move::Panel("6"),
+        Move::Cursor("left", "right"),
+        Move::Cursor("right", "left"),
+        Move::Cursor("up", "down"),
+        Move::Cursor("J", "K"),
+        Move::Cursor("L", "H"),
+        Move::Camera("a"),
+        Move::Camera("w"),
+        Move::Camera("D"),
+        Move::Camera("e"),
+        Move::Camera("-"),
+        Move::Turn("m", "M"),
+        Move::Turn("V", "v"),
+    ])
+}
+
+impl Person {
+    /// The number and the name of the step in the title of its panel.
+    fn step(&mut self) -> (usize, String) {
+        let screen = self.screen();
+        let title = screen.split("─ step ").nth(1).expect("the steps");
+        let mut words = title.split(' ');
+        let number = words.next().and_then(|n| n.parse().ok());
+        let name = words.nth(2).expect("a name");
+        (number.expect("a number"), name.to_owned())
+    }
+
+    /// Makes a move, and tells which keys take it back.
+    fn makes(
+        &mut self,
+        a_move: Move,
+        panel: &mut &'static str,
+        chosen: &mut Option<String>,
+    ) -> String {
+        let place = |person: &Self| person.explorer.reading().expect("a reading").pixel;
+        match a_move {
+            Move::Step(key) => {
+                let was = *panel;
+                self.presses("2");
+                *panel = "2";
+                let (before, name) = self.step();
+                if chosen.as_ref().is_some_and(|chosen| *chosen != name) {
+                    // This one stands in for the chosen step, which this pixel has not: to go on from
+                    // it is a choice that no step back undoes.
+                    return format!("{before} {was}");
+                }
+                self.presses(key);
+                let (after, name) = self.step();
+                *chosen = Some(name);
+                match (before, after) {
+                    (before, after) if after == before + 1 => format!("- 2 , {was}"),
+                    (before, after) if after + 1 == before => format!("- 2 . {was}"),
+                    (before, _) => format!("{before} {was}"),
+                }
+            }
+            Move::Panel(key) => {
+                let back = format!("- {panel}");
+                *panel = key;
+                self.presses(key);
+                back
+            }
+            Move::Cursor(key, back) => {
+                let before = place(self);
+                self.presses(key);
+                let (after, far) = (place(self), key == key.to_uppercase());
+                let moved = before.0.abs_diff(after.0) + before.1.abs_diff(after.1);
+                // At the edge of the picture a move is a shorter one, or none.
+                let back = if far {
+                    back.to_lowercase()
+                } else {
+                    back.to_owned()
+                };
+                format!("- {panel} {}", vec![back; moved as usize].join(" "))
+            }
+            Move::Camera(key) => {
+                let before = self.explorer.scene().clone();
+                self.presses(key);
+                let undo = if *self.explorer.scene() == before {
+                    ""
+                } else {
+                    "u"
+                };
+                format!("- {panel} {undo}")
+            }
+            Move::Turn(key, back) => {
+                self.presses(key);
+                format!("- {panel} {back}")
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn stepping_back_restores_the_screen(
+        scene in prop::sample::select(vec!["seed", "trio", "inside", "far"]),
+        // Where the picture has to scroll, it stays where it was scrolled to.
+        size in prop::sample::select(vec![(80, 24), (130, 46), (160, 50)]),
+        moves in prop::collection::vec(any_move(), 1..24),
+    ) {
+        let mut person = Person::opens(scene, size.0, size.1);
+        let (mut panel, mut chosen) = ("1", None);
+        let mut ways_back = Vec::new();
+        for a_move in moves {
+            let screen = person.presses("esc").screen();
+            let was = panel;
+            let back = person.makes(a_move, &mut panel, &mut chosen);
+            ways_back.push((screen, back, was, a_move));
+        }
+        for (screen, back, was, a_move) in ways_back.into_iter().rev() {
+            let mut keys = back.split(' ');
+            match keys.next() {
+                Some("-") => {
+                    let keys: Vec<_> = keys.collect();
+                    person.presses(&keys.join(" "));
+                }
+                number => {
+                    person.presses("2").commands(&format!("step {}", number.expect("a number")));
+                    person.presses(was);
+                }
+            }
+            let found = person.presses("esc").screen();
+            prop_assert_eq!(&found, &screen, "after {:?} and back\n{}\nwas\n{}", a_move, found, screen);
         }
     }
 }

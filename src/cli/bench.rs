@@ -5,17 +5,20 @@ use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 
+use super::plan::buffer_of;
 use super::progress::{INTERRUPTED, Progress};
 use super::{INVALID, choice, complain, save, write_out};
 use crate::lab::bench::{self, MOST_TIMED, Plan, Report, Sample};
 use crate::lab::timing::{Schedule, SelfCheck, SystemClock};
-use crate::lab::{Alone, Family, Machine, plot};
+use crate::lab::{Alone, Family, Machine, frames, plot};
 use crate::method::Method;
-use crate::render::{CELL_ASPECT, Style, fit};
+use crate::render::{CELL_ASPECT, ColorDepth, Image, Style, fit};
 use crate::scene::{Rays, Scene};
+use crate::terminal::{Limits, Painter};
 
 /// Measure the methods: wrong answers, errors in ulp, nanoseconds
 #[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "flags of a command line")]
 pub(super) struct Bench {
     /// Fewer rays and rounds: seconds instead of minutes
     #[arg(long)]
@@ -36,6 +39,14 @@ pub(super) struct Bench {
     /// Instead of families, the rays of this scene's own picture (a file or a built-in name)
     #[arg(long, value_name = "SCENE", conflicts_with = "family")]
     scene: Option<String>,
+
+    /// Instead of single rays, whole frames: with the plan and without, from one sphere to a million
+    #[arg(long, conflicts_with_all = ["family", "scene", "rays", "plot", "brief", "strict"])]
+    frames: bool,
+
+    /// With --frames: only these numbers of spheres, separated by commas
+    #[arg(long, value_name = "NUMBERS", value_delimiter = ',', requires = "frames", value_parser = clap::value_parser!(u32).range(1..=3_000_000))]
+    counts: Vec<u32>,
 
     /// How many rays of each family
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
@@ -74,6 +85,9 @@ fn family() -> impl clap::builder::TypedValueParser<Value = &'static Family> {
 
 /// Runs what was asked for and ends with the exit status.
 pub(super) fn run(arguments: &Bench) -> ExitCode {
+    if arguments.frames {
+        return run_frames(arguments);
+    }
     let samples = match samples(arguments) {
         Ok(samples) => samples,
         Err(sentence) => {
@@ -121,6 +135,64 @@ pub(super) fn run(arguments: &Bench) -> ExitCode {
         ExitCode::from(INVALID)
     } else {
         written
+    }
+}
+
+/// Measures whole frames instead of single rays.
+fn run_frames(arguments: &Bench) -> ExitCode {
+    let mut schedule = frames::Schedule::new(arguments.quick, arguments.seed);
+    if !arguments.method.is_empty() {
+        schedule.methods.clone_from(&arguments.method);
+    }
+    if !arguments.counts.is_empty() {
+        schedule.counts = arguments.counts.iter().map(|&n| n as usize).collect();
+        schedule.counts.sort_unstable();
+    }
+    let mut progress = match Progress::new("bench", schedule.rows()) {
+        Ok(progress) => progress,
+        Err(error) => {
+            complain(format_args!("signals: {error}"));
+            return ExitCode::from(INVALID);
+        }
+    };
+    // No explorer of this host should time its picture meanwhile.
+    let _alone = Alone::take();
+    let report = frames::run(
+        &schedule,
+        &SystemClock::new(),
+        &mut Screen::default(),
+        |number, name| progress.go_on(number, name),
+    );
+    progress.clear();
+    let machine = Machine::detect();
+    let text = match arguments.format {
+        Format::Text => Ok(frames::table(&report, &machine)),
+        Format::Markdown => Ok(frames::markdown(&report, &machine)),
+        Format::Csv => frames::csv(&report).map_err(|e| format!("CSV: {e}")),
+        Format::Json => frames::json(&report, &machine).map_err(|e| format!("JSON: {e}")),
+    };
+    let written = match text {
+        Ok(text) => write_out(&text),
+        Err(sentence) => {
+            complain(sentence);
+            ExitCode::from(INVALID)
+        }
+    };
+    if progress.interrupted() {
+        ExitCode::from(INTERRUPTED)
+    } else {
+        written
+    }
+}
+
+/// A terminal of 256 colours that nobody looks at.
+#[derive(Default)]
+struct Screen(Painter);
+
+impl frames::Output for Screen {
+    fn show(&mut self, image: &Image) -> usize {
+        let mut cells = buffer_of(image, ColorDepth::Ansi256);
+        self.0.paint(&mut cells, None, Limits::default()).len()
     }
 }
 

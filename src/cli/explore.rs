@@ -8,13 +8,14 @@ use std::process::ExitCode;
 
 use clap::Args;
 
+use super::appearance::{Appearance, default_style, is_anybody_present};
 use super::place::Place;
 use super::{INVALID, MISUSED, aspect, choice, complain};
 use crate::explorer::{Explorer, Options};
 use crate::method::Method;
 use crate::render::{Style, View};
 use crate::scene::{Scene, Source};
-use crate::terminal::{self, Capability, Session};
+use crate::terminal::{self, Session};
 
 /// How the explorer opens.
 #[derive(Debug, Args)]
@@ -24,11 +25,11 @@ pub(super) struct Explore {
     scene: String,
 
     /// How the quadratic is evaluated
-    #[arg(long, value_parser = choice(&Method::ALL, Method::name), default_value_t = Method::default())]
+    #[arg(long, env = "RAYSCOPE_METHOD", hide_env_values = true, value_parser = choice(&Method::ALL, Method::name), default_value_t = Method::default())]
     method: Method,
 
-    /// How samples become characters
-    #[arg(long, value_parser = choice(&Style::ALL, Style::name))]
+    /// How samples become characters [default: half where there are colours, else ascii]
+    #[arg(long, env = "RAYSCOPE_STYLE", hide_env_values = true, value_parser = choice(&Style::ALL, Style::name))]
     style: Option<Style>,
 
     /// What the picture shows
@@ -40,17 +41,20 @@ pub(super) struct Explore {
     aspect: f64,
 
     #[command(flatten)]
+    appearance: Appearance,
+
+    #[command(flatten)]
     place: Place,
 }
 
 /// Opens the explorer and ends with the exit status that the person left it with.
 pub(super) fn run(arguments: &Explore) -> ExitCode {
-    match opened(arguments, fitted) {
+    match opened(arguments, |options| arguments.appearance.fitted(options)) {
         Ok((mut explorer, source)) => {
             if let Some(folder) = state_folder() {
                 explorer.keep_in(&folder, &source);
             }
-            converse(&mut explorer)
+            converse(&mut explorer, &arguments.appearance)
         }
         Err((status, sentence)) => {
             complain(sentence);
@@ -69,29 +73,28 @@ pub(super) fn opened(
     let defaults = Options::default();
     let options = fit(Options {
         method: arguments.method,
-        style: arguments.style.unwrap_or(defaults.style),
         view: arguments.view.unwrap_or(defaults.view),
         aspect: arguments.aspect,
         ..defaults
     })?;
+    let by_default = || default_style(options.colors(), options.glyphs);
+    let options = Options {
+        style: arguments.style.unwrap_or_else(by_default),
+        ..options
+    };
     let mut explorer = Explorer::new(scene, &source, options);
     let opening = arguments.place.opening();
     explorer.set_out(&opening).map_err(|e| (MISUSED, e))?;
     Ok((explorer, source))
 }
 
-/// The options with what this terminal has; where it has too little, an exit status and the reason.
-pub(super) fn fitted(options: Options) -> Result<Options, (u8, String)> {
-    let capability = Capability::detect().map_err(|unfit| (INVALID, unfit.0.to_owned()))?;
-    Ok(Options {
-        depth: capability.depth,
-        glyphs: capability.glyphs,
-        ..options
-    })
-}
-
 /// Runs the explorer in the terminal; however that ends, unsaved work is kept.
-pub(super) fn converse(explorer: &mut Explorer) -> ExitCode {
+pub(super) fn converse(explorer: &mut Explorer, appearance: &Appearance) -> ExitCode {
+    if appearance.plain {
+        let ended = terminal::converse(explorer, is_anybody_present());
+        keep(explorer.finish());
+        return ended.map_or_else(|e| failed(&e), ExitCode::from);
+    }
     let mut session = match Session::enter() {
         Ok(session) => session,
         Err(e) => return failed(&e),
@@ -100,6 +103,16 @@ pub(super) fn converse(explorer: &mut Explorer) -> ExitCode {
     let ended = panic::catch_unwind(AssertUnwindSafe(|| terminal::run(explorer, &mut session)));
     let kept = explorer.finish();
     drop(session);
+    keep(kept);
+    match ended {
+        Ok(Ok(status)) => ExitCode::from(status),
+        Ok(Err(e)) => failed(&e),
+        Err(panicked) => panic::resume_unwind(panicked),
+    }
+}
+
+/// Says where unsaved work was kept, or why it was not.
+fn keep(kept: Result<Option<PathBuf>, String>) {
     match kept {
         Ok(Some(path)) => complain(format_args!(
             "unsaved work is kept in {}; opening the same scene offers it",
@@ -107,11 +120,6 @@ pub(super) fn converse(explorer: &mut Explorer) -> ExitCode {
         )),
         Ok(None) => {}
         Err(sentence) => complain(sentence),
-    }
-    match ended {
-        Ok(Ok(status)) => ExitCode::from(status),
-        Ok(Err(e)) => failed(&e),
-        Err(panicked) => panic::resume_unwind(panicked),
     }
 }
 

@@ -1,6 +1,8 @@
 //! The command line: parses the arguments and calls the part that does the work.
 
+mod appearance;
 mod bench;
+mod completions;
 mod explore;
 mod grade;
 mod place;
@@ -11,6 +13,7 @@ mod scenes;
 mod solve;
 mod stress;
 mod tour;
+mod variables;
 mod worksheet;
 
 use std::fmt;
@@ -19,7 +22,7 @@ use std::path::Path;
 use std::process::ExitCode;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 /// A terminal explorer for ray–sphere intersection.
 #[derive(Debug, Parser)]
@@ -35,6 +38,7 @@ struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     Bench(bench::Bench),
+    Completions(completions::Completions),
     Grade(grade::Grade),
     Plan(plan::Plan),
     Print(print::Print),
@@ -47,9 +51,10 @@ enum Command {
 
 /// Runs the program with the arguments of this process.
 pub fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = arguments();
     match arguments.command {
         None => explore::run(&arguments.explore),
+        Some(Command::Completions(arguments)) => completions::run(&arguments),
         Some(Command::Bench(arguments)) => bench::run(&arguments),
         Some(Command::Grade(arguments)) => grade::run(&arguments),
         Some(Command::Plan(arguments)) => plan::run(&arguments),
@@ -60,6 +65,23 @@ pub fn main() -> ExitCode {
         Some(Command::Tour(arguments)) => tour::run(&arguments),
         Some(Command::Worksheet(arguments)) => worksheet::run(&arguments),
     }
+}
+
+/// The arguments of this process; ends it where they are wrong, or help was asked for.
+fn arguments() -> Arguments {
+    let mut command = variables::without_empty(Arguments::command());
+    let matches = command.try_get_matches_from_mut(std::env::args_os());
+    let arguments = matches.and_then(|matches| {
+        let arguments = Arguments::from_arg_matches(&matches);
+        arguments.map_err(|error| error.format(&mut command))
+    });
+    arguments.unwrap_or_else(|error| match variables::at_fault(&error, &command) {
+        Some(sentence) => {
+            complain(sentence);
+            std::process::exit(MISUSED.into())
+        }
+        None => error.exit(),
+    })
 }
 
 /// The exit status where some input was invalid.

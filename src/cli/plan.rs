@@ -200,10 +200,9 @@ impl Screen {
 
     fn bytes(&mut self) -> Line {
         let limits = Limits::default();
-        let all = Painter::default()
-            .paint(&mut self.cells(), None, limits)
-            .len() as u64;
-        let sent = self.painter.paint(&mut self.cells(), None, limits).len() as u64;
+        let cells = || buffer_of(&self.image, self.look.depth);
+        let all = Painter::default().paint(&mut cells(), None, limits).len() as u64;
+        let sent = self.painter.paint(&mut cells(), None, limits).len() as u64;
         Line::new(
             "bytes sent",
             sent,
@@ -211,30 +210,30 @@ impl Screen {
             "of what all cells would take on an empty screen of 256 colours: a cell that the terminal shows already is not sent",
         )
     }
+}
 
-    /// The image as the cells of a terminal.
-    fn cells(&self) -> Buffer {
-        let columns = u16::try_from(self.image.cols).unwrap_or(u16::MAX);
-        let rows = u16::try_from(self.image.rows).unwrap_or(u16::MAX);
-        let mut buffer = Buffer::empty(Rect::new(0, 0, columns, rows));
-        for (y, line) in (0..rows).zip(self.image.lines()) {
-            for (x, cell) in (0..columns).zip(line) {
-                buffer[(x, y)]
-                    .set_char(cell.glyph)
-                    .set_style(self.style(cell));
-            }
+/// An image as the cells of a terminal with so many colours.
+pub(super) fn buffer_of(image: &Image, depth: ColorDepth) -> Buffer {
+    let columns = u16::try_from(image.cols).unwrap_or(u16::MAX);
+    let rows = u16::try_from(image.rows).unwrap_or(u16::MAX);
+    let mut buffer = Buffer::empty(Rect::new(0, 0, columns, rows));
+    for (y, line) in (0..rows).zip(image.lines()) {
+        for (x, cell) in (0..columns).zip(line) {
+            buffer[(x, y)]
+                .set_char(cell.glyph)
+                .set_style(style_of(cell, depth));
         }
-        buffer
     }
+    buffer
+}
 
-    fn style(&self, cell: &Cell) -> CellStyle {
-        let color = |color: Option<Rgb>| match color.and_then(|c| self.look.depth.nearest(c)) {
-            None => Color::Reset,
-            Some(AnsiColor::Basic(i) | AnsiColor::Indexed(i)) => Color::Indexed(i),
-            Some(AnsiColor::Rgb(Rgb(r, g, b))) => Color::Rgb(r, g, b),
-        };
-        CellStyle::new().fg(color(cell.fg)).bg(color(cell.bg))
-    }
+fn style_of(cell: &Cell, depth: ColorDepth) -> CellStyle {
+    let color = |color: Option<Rgb>| match color.and_then(|c| depth.nearest(c)) {
+        None => Color::Reset,
+        Some(AnsiColor::Basic(i) | AnsiColor::Indexed(i)) => Color::Indexed(i),
+        Some(AnsiColor::Rgb(Rgb(r, g, b))) => Color::Rgb(r, g, b),
+    };
+    CellStyle::new().fg(color(cell.fg)).bg(color(cell.bg))
 }
 
 fn text(report: &Report) -> String {

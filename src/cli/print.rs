@@ -4,9 +4,10 @@ use std::fmt::Write as _;
 use std::io::{self, IsTerminal as _};
 use std::process::ExitCode;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use crossterm::terminal::window_size;
 
+use super::appearance::{ColorChoice, default_style};
 use super::{INVALID, MISUSED, aspect, choice, complain, write_out};
 use crate::explain::{self, Digits, Drawn, Glyphs, Reading};
 use crate::method::Method;
@@ -23,7 +24,7 @@ pub(super) struct Print {
     scene: String,
 
     /// How samples become characters [default: half where there are colours, else ascii]
-    #[arg(long, value_parser = choice(&Style::ALL, Style::name))]
+    #[arg(long, env = "RAYSCOPE_STYLE", hide_env_values = true, value_parser = choice(&Style::ALL, Style::name))]
     style: Option<Style>,
 
     /// What the picture shows
@@ -35,11 +36,17 @@ pub(super) struct Print {
     size: Option<Size>,
 
     /// How the quadratic is evaluated
-    #[arg(long, value_parser = choice(&Method::ALL, Method::name), default_value_t = Method::default())]
+    #[arg(long, env = "RAYSCOPE_METHOD", hide_env_values = true, value_parser = choice(&Method::ALL, Method::name), default_value_t = Method::default())]
     method: Method,
 
     /// How many colours; auto: as many as the terminal has, in a pipe or file none
-    #[arg(long, value_name = "WHEN", default_value = "auto")]
+    #[arg(
+        long,
+        value_name = "WHEN",
+        env = "RAYSCOPE_COLOR",
+        hide_env_values = true,
+        default_value = "auto"
+    )]
     color: ColorChoice,
 
     /// Height of a character cell over its width
@@ -53,17 +60,6 @@ pub(super) struct Print {
     /// The whole derivation of that pixel, step by step
     #[arg(long, requires = "pixel")]
     steps: bool,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum ColorChoice {
-    Auto,
-    Never,
-    #[value(name = "16")]
-    Ansi16,
-    #[value(name = "256")]
-    Ansi256,
-    True,
 }
 
 /// Draws the scene, or reads one pixel of it, and ends with the exit status.
@@ -80,8 +76,10 @@ pub(super) fn run(arguments: &Print) -> ExitCode {
 /// What is asked for, or an exit status and the reason.
 fn text(arguments: &Print) -> Result<String, (u8, String)> {
     let (scene, _) = Scene::open(&arguments.scene).map_err(|e| (INVALID, e.to_string()))?;
-    let capability = capability(arguments.color);
-    let style = arguments.style.unwrap_or_else(|| default_style(capability));
+    let capability = arguments.color.over(Capability::of_output());
+    let style = arguments
+        .style
+        .unwrap_or_else(|| default_style(capability.depth, capability.glyphs));
     let (size, shape) = fit_as_asked(&scene, style, arguments);
     let rays = Rays::new(&scene.camera, size, shape);
     match arguments.pixel {
@@ -108,29 +106,6 @@ fn text(arguments: &Print) -> Result<String, (u8, String)> {
             let expected = format!("a pixel of the picture, from 0,0 to {right},{bottom}");
             Err((MISUSED, format!("--pixel {x},{y}: expected {expected}")))
         }
-    }
-}
-
-fn capability(choice: ColorChoice) -> Capability {
-    let capability = Capability::of_output();
-    let depth = match choice {
-        ColorChoice::Auto => capability.depth,
-        ColorChoice::Never => ColorDepth::None,
-        ColorChoice::Ansi16 => ColorDepth::Ansi16,
-        ColorChoice::Ansi256 => ColorDepth::Ansi256,
-        ColorChoice::True => ColorDepth::True,
-    };
-    Capability {
-        depth,
-        ..capability
-    }
-}
-
-fn default_style(capability: Capability) -> Style {
-    if capability.depth == ColorDepth::None || capability.glyphs == Glyphs::Ascii {
-        Style::Ascii
-    } else {
-        Style::Half
     }
 }
 

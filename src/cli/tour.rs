@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use clap::Args;
 
+use super::appearance::Appearance;
 use super::place::Place;
 use super::{INVALID, MISUSED, aspect, choice, complain, explore, write_out};
 use crate::explorer::tour::{self, Chapter};
@@ -47,6 +48,9 @@ pub(super) struct Tour {
     aspect: f64,
 
     #[command(flatten)]
+    appearance: Appearance,
+
+    #[command(flatten)]
     place: Place,
 }
 
@@ -61,8 +65,9 @@ pub(super) fn run(arguments: &Tour) -> ExitCode {
             }
         };
     }
-    match opened(arguments, explore::fitted) {
-        Ok(mut explorer) => explore::converse(&mut explorer),
+    let appearance = &arguments.appearance;
+    match opened(arguments, |options| appearance.fitted(options)) {
+        Ok(mut explorer) => explore::converse(&mut explorer, appearance),
         Err((status, sentence)) => {
             complain(sentence);
             status.into()

@@ -25,6 +25,14 @@ pub enum Glyphs {
 }
 
 impl Glyphs {
+    /// What they are, in a few words.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Unicode => "Unicode",
+            Self::Ascii => "ASCII",
+        }
+    }
+
     /// Text that was written for Unicode, in the characters that are allowed.
     pub fn spell(self, text: &str) -> String {
         if self == Self::Unicode {

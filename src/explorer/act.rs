@@ -2,17 +2,21 @@
 
 use std::path::{Path, PathBuf};
 
-use super::action::Action;
+use super::action::{Action, Group};
 use super::command::Command;
 use super::document::{Change, Document};
 use super::mode::{Form, Mode, Purpose, Question};
 use super::motion;
 use super::panel::Panel;
+use super::theme::Palette;
 use super::{Explorer, Request};
 use crate::lab::CaseForm;
 use crate::method::Method;
-use crate::render::{Style, View};
+use crate::render::{ColorDepth, Style, View};
 use crate::scene::{Aim, Camera};
+
+/// Why something on the screen is as it is, where the person has said so.
+const CHOSEN_HERE: &str = "chosen here";
 
 impl Explorer {
     #[expect(
@@ -20,6 +24,9 @@ impl Explorer {
         reason = "one arm for each action, so that the compiler finds a missing one"
     )]
     pub(super) fn act(&mut self, action: Action) {
+        if acts_on_picture(action) {
+            self.refresh();
+        }
         match action {
             Action::CursorLeft => self.move_cursor(-1, 0),
             Action::CursorRight => self.move_cursor(1, 0),
@@ -86,6 +93,8 @@ impl Explorer {
             Action::Precision => self.full_digits = !self.full_digits,
             Action::AspectTaller => self.set_aspect(self.options.aspect + 0.05),
             Action::AspectWider => self.set_aspect(self.options.aspect - 0.05),
+            Action::NextTheme => self.set_palette(turn(&Palette::ALL, self.options.palette, 1)),
+            Action::NextColor => self.set_depth(turn(&ColorDepth::ALL, self.options.depth, 1)),
             Action::ScrollDown => self.scroll += 5,
             Action::ScrollUp => self.scroll = self.scroll.saturating_sub(5),
 
@@ -132,6 +141,8 @@ impl Explorer {
                 }
                 self.mend_selection();
             }
+            Action::Mouse => self.toggle_mouse(),
+            Action::Redraw => self.request = Some(Request::Redraw),
             Action::Open => self.prompt(Purpose::Open, ""),
             Action::Save => self.save(),
             Action::SaveAs => {
@@ -148,6 +159,7 @@ impl Explorer {
     }
 
     pub(super) fn command(&mut self, command: Command) {
+        self.refresh();
         match command {
             Command::Do(action) => self.act(action),
             Command::QuitNow => self.ended = Some(0),
@@ -159,6 +171,8 @@ impl Explorer {
             Command::Method(method) => self.options.method = method,
             Command::Style(style) => self.set_style(style),
             Command::View(view) => self.set_view(view),
+            Command::Palette(palette) => self.set_palette(palette),
+            Command::Color(depth) => self.set_depth(depth),
             Command::Panel(panel) => self.panel = panel,
             Command::Copy(form) => self.copy_case(form),
             Command::Append(name) => self.append_case(Path::new(&name)),
@@ -300,6 +314,22 @@ impl Explorer {
         self.say_legend();
     }
 
+    fn set_palette(&mut self, palette: Palette) {
+        self.options.palette = palette;
+        self.options.reasons.palette = CHOSEN_HERE;
+        self.say(format!("Theme: {}, {}.", palette.name(), palette.words()));
+    }
+
+    fn set_depth(&mut self, depth: ColorDepth) {
+        self.options.depth = depth;
+        self.options.reasons.depth = CHOSEN_HERE;
+        let unused = match self.options.palette {
+            Palette::Monochrome => "; the theme monochrome uses none, @ changes it",
+            _ => "",
+        };
+        self.say(format!("Colours: {}{unused}.", depth.words()));
+    }
+
     fn say_legend(&mut self) {
         let (view, style) = (self.options.view, self.options.style);
         let shown = view.shown_in(style).name();
@@ -330,6 +360,13 @@ impl Explorer {
             self.say(nothing);
         }
     }
+}
+
+/// Whether what it does depends on the picture and the reading, which a change makes stale.
+fn acts_on_picture(action: Action) -> bool {
+    use Action::{Link, MakeTangent, NextOnLine, SelectShown};
+    let of_group = matches!(action.group(), Group::Cursor | Group::Steps);
+    of_group || matches!(action, Link | MakeTangent | NextOnLine | SelectShown)
 }
 
 /// The value `by` places after `now` in the ring of all.

@@ -201,6 +201,10 @@ actions! {
     AspectTaller "aspect-taller" ["}"] View;
     /// cells taken to be wider
     AspectWider "aspect-wider" ["{"] View;
+    /// next theme: dark, light, high-contrast, monochrome
+    NextTheme "next-theme" ["@"] View;
+    /// next number of colours: 256, true, never, 16
+    NextColor "next-color" ["#"] View;
     /// scroll the panel down
     ScrollDown "scroll-down" ["pagedown"] View;
     /// scroll the panel up
@@ -278,6 +282,10 @@ actions! {
     Redo "redo" ["U", "ctrl-r"] Program;
     /// reset the scene to what was opened (can be undone)
     Reset "reset" ["R"] Program;
+    /// use the mouse: a click moves the cursor, the wheel zooms; or leave it to select text
+    Mouse "mouse" ["$"] Program;
+    /// draw the whole screen again
+    Redraw "redraw" ["ctrl-l"] Program;
     /// open a scene
     Open "open" ["ctrl-o"] Program;
     /// save the scene

@@ -2,12 +2,13 @@
 
 use crate::lab::{CaseForm, Dial};
 use crate::method::Method;
-use crate::render::{Style, View};
+use crate::render::{ColorDepth, Style, View};
 use crate::scene::Builtin;
 
 use super::action::Action;
 use super::field::{Field, parse_number};
 use super::panel::Panel;
+use super::theme::Palette;
 use super::tour;
 
 /// A line that was understood.
@@ -27,6 +28,10 @@ pub enum Command {
     Style(Style),
     /// Show this view.
     View(View),
+    /// Use the colours of this theme.
+    Palette(Palette),
+    /// Use so many colours.
+    Color(ColorDepth),
     /// Put the cursor on a pixel.
     Cursor(u32, u32),
     /// Select the sphere of that number, from 1.
@@ -66,6 +71,12 @@ pub const WITH_ARGUMENT: &[(&str, &str, &str)] = &[
     ("method", "NAME", "evaluate the quadratic by this method"),
     ("style", "NAME", "draw the picture in this style"),
     ("view", "NAME", "show this view"),
+    ("theme", "NAME", "draw in the colours of this theme"),
+    (
+        "color",
+        "DEPTH",
+        "use so many colours: never, 16, 256, true",
+    ),
     ("cursor", "X Y", "put the cursor on a pixel"),
     ("sphere", "N", "select the sphere of that number"),
     (
@@ -125,6 +136,8 @@ impl Command {
             "method" => choice(rest, "method", Method::ALL, Method::name).map(Self::Method),
             "style" => choice(rest, "style", Style::ALL, Style::name).map(Self::Style),
             "view" => choice(rest, "view", View::ALL, View::name).map(Self::View),
+            "theme" => choice(rest, "theme", Palette::ALL, Palette::name).map(Self::Palette),
+            "color" => choice(rest, "color", ColorDepth::ALL, ColorDepth::name).map(Self::Color),
             "cursor" => cursor(rest),
             "sphere" => match rest.parse() {
                 Ok(n) if n > 0 => Ok(Self::Sphere(n)),
@@ -148,12 +161,15 @@ impl Command {
             _ if Action::by_name(name).is_some() => {
                 Err(format!("{name}: takes no argument, found “{rest}”"))
             }
-            _ => Err(format!(
-                "“{name}” is no command{}; tab lists them",
-                nearest(name).map_or(String::new(), |n| format!(", {n} is"))
-            )),
+            _ => Err(unknown(name)),
         }
     }
+}
+
+/// Why a line that starts with that word is no command.
+pub fn unknown(name: &str) -> String {
+    let meant = nearest(name).map_or(String::new(), |n| format!(", {n} is"));
+    format!("“{name}” is no command{meant}; tab lists them")
 }
 
 fn argument(rest: &str, name: &str, expected: &str) -> Result<String, String> {
@@ -282,6 +298,11 @@ pub fn complete(line: &str) -> Vec<String> {
         "panel" => Panel::ALL.iter().map(|p| p.name().to_owned()).collect(),
         "method" | "compare" => Method::ALL.iter().map(|m| m.name().to_owned()).collect(),
         "style" => Style::ALL.iter().map(|s| s.name().to_owned()).collect(),
+        "theme" => Palette::ALL.iter().map(|p| p.name().to_owned()).collect(),
+        "color" => ColorDepth::ALL
+            .iter()
+            .map(|d| d.name().to_owned())
+            .collect(),
         "view" => View::ALL.iter().map(|v| v.name().to_owned()).collect(),
         "set" => Field::all_names(),
         "copy" => CaseForm::ALL.iter().map(|f| f.name().to_owned()).collect(),

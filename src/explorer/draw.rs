@@ -5,13 +5,13 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::Style as CellStyle;
 use unicode_width::UnicodeWidthStr;
 
-use super::Explorer;
 use super::action::{Action, FOOTER, Group};
 use super::command::WITH_ARGUMENT;
 use super::field::Field;
 use super::layout::{self, LEAST};
 use super::mode::{Form, Message, Mode, Prompt};
 use super::theme::Theme;
+use super::{Explorer, Options};
 use crate::explain::{self, Glyphs, Line};
 use crate::lab::CaseForm;
 use crate::method::Place;
@@ -115,44 +115,50 @@ impl Explorer {
         let mut pen = Pen {
             buffer,
             glyphs: self.options.glyphs,
-            theme: Theme::new(self.options.depth),
+            theme: Theme::new(self.options.palette, self.options.depth),
         };
+        let cursor = self.draw_parts(&mut pen, area);
+        pen.theme.finish(pen.buffer);
+        cursor
+    }
+
+    fn draw_parts(&self, pen: &mut Pen<'_>, area: Rect) -> Option<Position> {
         let Some(layout) = self.layout(area) else {
-            too_small(&mut pen, area);
+            too_small(pen, area);
             return None;
         };
-        self.draw_title(&mut pen, layout.title);
-        self.draw_tour(&mut pen, layout.tour);
+        self.draw_title(pen, layout.title);
+        self.draw_tour(pen, layout.tour);
         if let Mode::Help { scroll } = self.mode {
             let body = layout.view.union(layout.panel).union(layout.strip);
-            draw_help(&mut pen, body, scroll);
-            return self.draw_footer(&mut pen, layout.footer);
+            self.draw_help(pen, body, scroll);
+            return self.draw_footer(pen, layout.footer);
         }
         if let Mode::Case(form) = self.mode {
             let body = layout.view.union(layout.panel).union(layout.strip);
-            draw_case(&mut pen, body, form, &self.case_lines(form));
-            return self.draw_footer(&mut pen, layout.footer);
+            draw_case(pen, body, form, &self.case_lines(form));
+            return self.draw_footer(pen, layout.footer);
         }
         if self.board {
             let body = layout.view.union(layout.panel).union(layout.strip);
-            self.draw_board(&mut pen, body);
-            return self.draw_footer(&mut pen, layout.footer);
+            self.draw_board(pen, body);
+            return self.draw_footer(pen, layout.footer);
         }
-        let cell = self.draw_view(&mut pen, layout.view);
+        let cell = self.draw_view(pen, layout.view);
         let field = match &self.mode {
             Mode::Form(_) if layout.panel.is_empty() => {
                 let body = layout.view.union(layout.strip);
-                self.draw_form(&mut pen, body)
+                self.draw_form(pen, body)
             }
-            Mode::Form(_) => self.draw_form(&mut pen, layout.panel),
+            Mode::Form(_) => self.draw_form(pen, layout.panel),
             _ => {
-                self.draw_panels(&mut pen, layout.panel);
-                self.draw_strip(&mut pen, layout.strip);
+                self.draw_panels(pen, layout.panel);
+                self.draw_strip(pen, layout.strip);
                 None
             }
         };
         // Last, since a long message covers what is above it.
-        let footer = self.draw_footer(&mut pen, layout.footer);
+        let footer = self.draw_footer(pen, layout.footer);
         footer.or(field).or(cell)
     }
 
@@ -270,16 +276,10 @@ impl Explorer {
             None => step,
         };
         pen.frame(area, &format!("view {size}"), &foot);
-        let room = layout::inner(area);
         let image = &self.picture.image;
         let (left, top) = self.picture.offset;
-        let shown = (
-            (image.cols - left.min(image.cols)).min(room.width.into()) as u16,
-            (image.rows - top.min(image.rows)).min(room.height.into()) as u16,
-        );
-        // A picture that is smaller than its room stands in the middle.
-        let x0 = room.x + (room.width - shown.0) / 2;
-        let y0 = room.y + (room.height - shown.1) / 2;
+        let place = layout::centered(area, image, (left, top));
+        let (x0, y0, shown) = (place.x, place.y, (place.width, place.height));
         for row in 0..shown.1 {
             for col in 0..shown.0 {
                 let Some(cell) = image.cell(left + u32::from(col), top + u32::from(row)) else {
@@ -451,29 +451,80 @@ fn draw_message(pen: &mut Pen<'_>, footer: Rect, message: &Message) {
     }
 }
 
-/// A line of the help page: a heading, or keys and what they do.
-fn help() -> Vec<(String, String)> {
-    let mut out = Vec::new();
-    for group in Group::ALL {
-        out.push((group.title().to_owned(), String::new()));
-        for action in Action::ALL.iter().filter(|a| a.group() == group) {
-            out.push((
-                format!("  {}", action.keys().join(" ")),
-                action.help().into(),
-            ));
+impl Explorer {
+    /// A line of the help page: a heading, or keys and what they do.
+    fn help(&self) -> Vec<(String, String)> {
+        let mut out = self.of_terminal();
+        for group in Group::ALL {
+            out.push((group.title().to_owned(), String::new()));
+            for action in Action::ALL.iter().filter(|a| a.group() == group) {
+                out.push((
+                    format!("  {}", action.keys().join(" ")),
+                    action.help().into(),
+                ));
+            }
+            out.push(Default::default());
         }
-        out.push(Default::default());
+        out.push(("Commands after :".into(), String::new()));
+        for (name, argument, help) in WITH_ARGUMENT {
+            out.push((format!("  {name} {argument}"), (*help).into()));
+        }
+        out
     }
-    out.push(("Commands after :".into(), String::new()));
-    for (name, argument, help) in WITH_ARGUMENT {
-        out.push((format!("  {name} {argument}"), (*help).into()));
-    }
-    out
-}
 
-/// How many lines the help page has.
-pub(super) fn help_lines() -> usize {
-    help().len()
+    /// How the screen is drawn, and why so.
+    fn of_terminal(&self) -> Vec<(String, String)> {
+        let Options {
+            depth,
+            palette,
+            glyphs,
+            reasons,
+            ..
+        } = self.options;
+        let line = |name: &str, what: &str, why: &str| {
+            let words = format!("{what} ({why})");
+            (format!("  {name}"), words)
+        };
+        vec![
+            ("This terminal".into(), String::new()),
+            line("# colours", depth.words(), reasons.depth),
+            line("@ theme", palette.name(), reasons.palette),
+            line("characters", glyphs.name(), reasons.glyphs),
+            Default::default(),
+        ]
+    }
+
+    /// How many lines the help page has.
+    pub(super) fn help_lines(&self) -> usize {
+        self.help().len()
+    }
+
+    fn draw_help(&self, pen: &mut Pen<'_>, area: Rect, scroll: usize) {
+        let lines = self.help();
+        let room = layout::inner(area);
+        let scroll = scroll.min(lines.len().saturating_sub(room.height.into()));
+        let below = lines
+            .len()
+            .saturating_sub(scroll + usize::from(room.height));
+        let foot = if below > 0 {
+            format!("{below} lines below: down, space")
+        } else {
+            String::new()
+        };
+        pen.frame(area, "keys", &foot);
+        for (y, (key, words)) in (room.top()..room.bottom()).zip(&lines[scroll..]) {
+            let x = pen.text(
+                room.x + 1,
+                y,
+                room.width.saturating_sub(1),
+                key,
+                Theme::strong(),
+            );
+            let column = (room.x + 24).max(x + 1);
+            let space = room.right().saturating_sub(column);
+            pen.text(column, y, space, words, CellStyle::new());
+        }
+    }
 }
 
 /// What was copied, without a border: where the terminal does not let programs copy, it can be
@@ -499,32 +550,5 @@ fn draw_case(pen: &mut Pen<'_>, area: Rect, form: CaseForm, lines: &[String]) {
     let hint = ":append FILE adds the row to a file.";
     if y + 1 < area.bottom() {
         pen.text(area.x, y + 1, area.width, hint, Theme::faint());
-    }
-}
-
-fn draw_help(pen: &mut Pen<'_>, area: Rect, scroll: usize) {
-    let lines = help();
-    let room = layout::inner(area);
-    let scroll = scroll.min(lines.len().saturating_sub(room.height.into()));
-    let below = lines
-        .len()
-        .saturating_sub(scroll + usize::from(room.height));
-    let foot = if below > 0 {
-        format!("{below} lines below: down, space")
-    } else {
-        String::new()
-    };
-    pen.frame(area, "keys", &foot);
-    for (y, (key, words)) in (room.top()..room.bottom()).zip(&lines[scroll..]) {
-        let x = pen.text(
-            room.x + 1,
-            y,
-            room.width.saturating_sub(1),
-            key,
-            Theme::strong(),
-        );
-        let column = (room.x + 24).max(x + 1);
-        let space = room.right().saturating_sub(column);
-        pen.text(column, y, space, words, CellStyle::new());
     }
 }

@@ -12,6 +12,7 @@
 use ratatui::layout::Rect;
 
 use super::Explorer;
+use crate::render::Image;
 
 /// The smallest screen that is drawn on, in columns and rows.
 pub const LEAST: (u16, u16) = (20, 6);
@@ -123,6 +124,20 @@ pub fn inner(area: Rect) -> Rect {
         area.y + 1,
         area.width - BORDER,
         area.height - BORDER,
+    )
+}
+
+/// The cells inside the border of `view` that show `image` from its column and row `offset` on: a
+/// picture that is smaller than its room stands in the middle.
+pub fn centered(view: Rect, image: &Image, (left, top): (u32, u32)) -> Rect {
+    let room = inner(view);
+    let width = (image.cols - left.min(image.cols)).min(room.width.into()) as u16;
+    let height = (image.rows - top.min(image.rows)).min(room.height.into()) as u16;
+    Rect::new(
+        room.x + (room.width - width) / 2,
+        room.y + (room.height - height) / 2,
+        width,
+        height,
     )
 }
 

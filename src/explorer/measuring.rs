@@ -218,6 +218,11 @@ impl Explorer {
         self.measuring.waker = waker;
     }
 
+    /// Whether a thread is at work whose result is to come.
+    pub fn is_measuring(&self) -> bool {
+        self.measuring.is_running()
+    }
+
     /// Takes what threads have finished; false if nothing on the screen can have changed.
     pub fn catch_up(&mut self) -> bool {
         let Some(run) = &self.measuring.run else {

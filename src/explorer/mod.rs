@@ -21,9 +21,11 @@ mod link;
 mod measuring;
 mod mode;
 mod motion;
+mod mouse;
 mod panel;
 mod panels;
 mod picture;
+mod plain;
 mod prompt;
 mod rescue;
 mod saving;
@@ -43,6 +45,8 @@ use crate::scene::{Scene, Size, Source};
 pub use link::{Opening, command_line};
 pub use measuring::Waker;
 pub use panel::Panel;
+pub use plain::Reply;
+pub use theme::Palette;
 
 use arrival::Arrival;
 use dialing::Dialing;
@@ -70,8 +74,43 @@ pub struct Options {
     pub aspect: f64,
     /// The colours that the terminal has.
     pub depth: ColorDepth,
+    /// Which of them serve what.
+    pub palette: Palette,
     /// The characters that the terminal has.
     pub glyphs: Glyphs,
+    /// Why these.
+    pub reasons: Reasons,
+}
+
+/// Why the screen is drawn as it is, in a few words each, for the help page.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Reasons {
+    /// Why so many colours.
+    pub depth: &'static str,
+    /// Why this theme.
+    pub palette: &'static str,
+    /// Why these characters.
+    pub glyphs: &'static str,
+}
+
+impl Default for Reasons {
+    fn default() -> Self {
+        Self {
+            depth: "the usual",
+            palette: "the usual",
+            glyphs: "the usual",
+        }
+    }
+}
+
+impl Options {
+    /// The colours that are used: none in a theme without.
+    pub const fn colors(&self) -> ColorDepth {
+        match self.palette {
+            Palette::Monochrome => ColorDepth::None,
+            Palette::Dark | Palette::Light | Palette::HighContrast => self.depth,
+        }
+    }
 }
 
 impl Default for Options {
@@ -82,7 +121,9 @@ impl Default for Options {
             view: View::Shade,
             aspect: 2.0,
             depth: ColorDepth::Ansi256,
+            palette: Palette::default(),
             glyphs: Glyphs::Unicode,
+            reasons: Reasons::default(),
         }
     }
 }
@@ -108,6 +149,9 @@ pub struct Explorer {
     panel: Panel,
     /// The step of the derivation that is shown.
     step_at: usize,
+    /// The name of the step that the person chose, and where it, or what stands in for it where there
+    /// is no such step, was last shown.
+    kept_step: Option<(String, usize)>,
     prediction: Prediction,
     /// One step is shown large, in the place of picture and panels.
     board: bool,
@@ -140,6 +184,8 @@ pub enum Request {
     Suspend,
     /// Put this text where the person can paste it from.
     Copy(String),
+    /// Draw all of the screen anew, whatever the terminal shows.
+    Redraw,
 }
 
 impl Explorer {
@@ -163,6 +209,7 @@ impl Explorer {
             scroll: 0,
             panel: Panel::default(),
             step_at: 0,
+            kept_step: None,
             prediction: Prediction::default(),
             board: false,
             scrubbed: None,
@@ -245,6 +292,7 @@ impl Explorer {
                 true
             }
             Event::Paste(text) => self.paste(text),
+            Event::Mouse(event) => self.point(*event),
             Event::Resize(..) => true,
             _ => false,
         }

@@ -6,7 +6,6 @@ use std::time::Duration;
 use super::Explorer;
 use super::action::Action;
 use super::command::{self, Command};
-use super::draw;
 use super::field::{Field, parse_number};
 use super::key::Key;
 use super::prompt::Line;
@@ -134,12 +133,17 @@ impl Explorer {
         }
         match std::mem::replace(&mut self.mode, Mode::Normal) {
             Mode::Normal => {
+                if self.prediction.on {
+                    self.refresh();
+                }
                 if self.answer_prediction(key) {
                     return;
                 }
                 if let Some(action) = Action::bound_to(key) {
                     self.act(action);
-                } else if !key.is("esc") {
+                } else if key.is("esc") {
+                    self.picture.changed.fill(false);
+                } else {
                     self.say("This key does nothing. ? shows the keys.");
                 }
             }
@@ -191,9 +195,12 @@ impl Explorer {
         } else {
             return;
         };
-        self.mode = Mode::Help {
-            scroll: scroll.min(draw::help_lines() - 1),
-        };
+        self.scroll_help(scroll);
+    }
+
+    pub(super) fn scroll_help(&mut self, scroll: usize) {
+        let scroll = scroll.min(self.help_lines() - 1);
+        self.mode = Mode::Help { scroll };
     }
 
     pub(super) fn press_in_prompt(&mut self, key: Key, mut prompt: Prompt) {

@@ -21,22 +21,9 @@ impl Explorer {
     }
 
     fn draw_panel(&self, pen: &mut Pen<'_>, panel: Panel, area: Rect) {
-        let Some(reading) = &self.picture.reading else {
-            return;
-        };
         let room = text_room(area);
-        let (title, lines) = match panel {
-            Panel::Quadratic => self.quadratic_panel(reading, room),
-            Panel::Steps => self.steps_panel(room),
-            Panel::Slice | Panel::Curve => self.figure_panel(panel, reading, room),
-            Panel::Bits => self.bits_panel(room),
-            Panel::Compare => self.compare_panel(reading, room),
-            Panel::Error => self.error_panel(room),
-            Panel::Plan => self.plan_panel(room),
-            Panel::Dial => (
-                format!("dial: {}", self.dialing.dial.name),
-                self.dial_lines(room.width.into(), room.height.into()),
-            ),
+        let Some((title, lines)) = self.panel_text(panel, room) else {
+            return;
         };
         // Only the panel that the person asked for scrolls.
         let hidden = lines.len().saturating_sub(room.height.into());
@@ -52,6 +39,24 @@ impl Explorer {
         };
         pen.frame(area, &title, &foot);
         pen.lines(room, &lines[scroll..]);
+    }
+
+    /// The title of a panel and its lines, laid out for `room`.
+    pub(super) fn panel_text(&self, panel: Panel, room: Rect) -> Option<(String, Vec<Line>)> {
+        let reading = self.picture.reading.as_ref()?;
+        Some(match panel {
+            Panel::Quadratic => self.quadratic_panel(reading, room),
+            Panel::Steps => self.steps_panel(room),
+            Panel::Slice | Panel::Curve => self.figure_panel(panel, reading, room),
+            Panel::Bits => self.bits_panel(room),
+            Panel::Compare => self.compare_panel(reading, room),
+            Panel::Error => self.error_panel(room),
+            Panel::Plan => self.plan_panel(room),
+            Panel::Dial => (
+                format!("dial: {}", self.dialing.dial.name),
+                self.dial_lines(room.width.into(), room.height.into()),
+            ),
+        })
     }
 
     fn panel_foot(&self, panel: Panel) -> String {

@@ -56,9 +56,9 @@ impl Explorer {
             style,
             view,
             aspect,
-            depth,
             glyphs,
             method,
+            ..
         } = self.options;
         let (size, shape) = fit(self.scene(), style, room.0.into(), room.1.into(), aspect);
         let key = PictureKey {
@@ -69,7 +69,7 @@ impl Explorer {
             view: view.shown_in(style),
             look: Look {
                 style,
-                depth,
+                depth: self.options.colors(),
                 ascii_only: glyphs == Glyphs::Ascii,
             },
         };
@@ -90,6 +90,15 @@ impl Explorer {
         self.arrive_at_step();
         self.date_chart();
         self.find_errors();
+    }
+
+    /// Brings picture and reading up to date between two drawings, for what acts on them: several
+    /// events may come before the next drawing, and the outcome must not depend on how many.
+    pub(super) fn refresh(&mut self) {
+        let (cols, rows) = self.screen;
+        if self.picture.key.is_some() {
+            self.prepare(cols, rows);
+        }
     }
 
     /// Keeps the cursor on the same place of the picture when the number of pixels changes.
@@ -141,6 +150,7 @@ impl Explorer {
         };
         self.picture.changed = steps.iter().map(is_new).collect();
         self.picture.steps = steps;
+        self.keep_step(&before);
         self.prediction.revealed = false;
     }
 }

@@ -10,6 +10,9 @@ use crate::method::Method;
 /// A step of the moving point, in radii.
 const SCRUB: f64 = 1.0 / 16.0;
 
+/// Steps that methods with half-b do in the place of those with B.
+const HALVES: [[&str; 2]; 4] = [["B", "b"], ["B²", "b²"], ["Δ", "D"], ["√Δ", "√D"]];
+
 /// Predict, then reveal: whether results are kept back, and how the guesses went. Nothing of it is
 /// stored anywhere.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -57,6 +60,28 @@ impl Explorer {
             self.prediction.revealed = false;
         }
         self.step_at = at.min(last);
+    }
+
+    /// Keeps the step that the person chose when the derivation becomes another one: the step of
+    /// that name, or what another method has in its place, else one that stands as far down.
+    pub(super) fn keep_step(&mut self, before: &[Step]) {
+        let chosen = match self.kept_step.take() {
+            Some((name, at)) if at == self.step_at && !before.is_empty() => Some(name),
+            _ => before.get(self.step_at).map(|step| step.name.clone()),
+        };
+        let steps = &self.picture.steps;
+        let place = |name: &str| steps.iter().position(|step| step.name == name);
+        let same = chosen.as_deref().and_then(|name| {
+            let other = HALVES.iter().find_map(|&[whole, half]| match name {
+                _ if name == whole => Some(half),
+                _ if name == half => Some(whole),
+                _ => None,
+            });
+            place(name).or_else(|| place(other?))
+        });
+        let last = steps.len().saturating_sub(1);
+        self.step_at = same.unwrap_or(self.step_at.min(last));
+        self.kept_step = chosen.map(|name| (name, self.step_at));
     }
 
     pub(super) fn go_to_step_named(&mut self, name: &str) {

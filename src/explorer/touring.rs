@@ -370,6 +370,30 @@ impl Explorer {
     }
 }
 
+impl Explorer {
+    /// Which chapter and page of the tour are open, from 0.
+    pub(super) fn tour_place(&self) -> Option<(usize, usize)> {
+        self.tour.as_ref().map(|t| (t.at.chapter, t.at.page))
+    }
+
+    /// The page of the tour as paragraphs, its title first.
+    pub(super) fn tour_text(&self) -> Option<Vec<String>> {
+        let at = &self.tour.as_ref()?.at;
+        let (chapter, page) = (at.chapter()?, at.page()?);
+        let title = format!(
+            "{}/{}: {}, page {}/{}",
+            at.chapter + 1,
+            at.chapters.len(),
+            chapter.title,
+            at.page + 1,
+            chapter.pages.len()
+        );
+        let attempt = page.attempt.as_ref().map(|text| format!("Try: {text}"));
+        let text = page.text.iter().cloned();
+        Some([title].into_iter().chain(text).chain(attempt).collect())
+    }
+}
+
 /// The most columns that a line of prose is pleasant to read in.
 const LEGIBLE: usize = 96;
 /// From this width on, what there is to do stands beside the text.

@@ -9,10 +9,19 @@ pub trait Kernel {
     fn run(self);
 }
 
+/// Whether this processor has AVX2 and FMA.
+pub fn is_wide() -> bool {
+    #[cfg(target_arch = "x86_64")]
+    return std::arch::is_x86_feature_detected!("avx2")
+        && std::arch::is_x86_feature_detected!("fma");
+    #[cfg(not(target_arch = "x86_64"))]
+    false
+}
+
 /// Runs the kernel, with AVX2 and FMA where the processor has it.
 pub fn dispatch(kernel: impl Kernel) {
     #[cfg(target_arch = "x86_64")]
-    if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma") {
+    if is_wide() {
         #[expect(
             unsafe_code,
             reason = "calls code compiled for features that were just found"

@@ -57,6 +57,16 @@ impl ColorDepth {
         }
     }
 
+    /// What it is, in a few words.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Ansi16 => "the terminal's own 16",
+            Self::Ansi256 => "256",
+            Self::True => "24 bits",
+        }
+    }
+
     /// The depth of that name.
     pub fn by_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|d| d.name() == name)

@@ -274,6 +274,49 @@ impl Block {
         })
     }
 
+    /// Makes ready for the test in binary32; where it does not serve, `accept` is not a number.
+    ///
+    /// A root C/(|b| + √D) with D > kA·`doubt` is off by ½√(`doubt`/kC) of itself, plus 4u|o|/√C for b
+    /// and a few u. Where C ≥ o²/4 that is below 2⁻¹⁴ + 12u if k·`doubt` ≥ 2²⁶`doubt`²/C. A root
+    /// (|b| − √D)/A of parallel rays is no less than `least`, which takes the place of √C; |o| is then at
+    /// most 64 times that, which makes 4u|o| no more than 2⁻¹⁶ of it.
+    #[inline(always)]
+    fn prepare_singles<const PERSPECTIVE: bool>(
+        &mut self,
+        i: usize,
+        o: [Lanes; 3],
+        reach: Lanes,
+        radius: Lanes,
+        least: Lanes,
+    ) {
+        let o2 = dot(o, o);
+        let r2 = radius * radius;
+        let c = o2 - r2;
+        let (nearest2, served) = if PERSPECTIVE {
+            (c, c - Lanes::of(0.25) * o2)
+        } else {
+            (least * least, Lanes::of(64.0) * least - reach)
+        };
+        let doubt = Lanes::of(SINGLE_ERROR) * radius * reach;
+        let for_class = doubt + doubt;
+        let for_root = doubt * doubt / (Lanes::of(4.0 * ROOT_ERROR * ROOT_ERROR) * nearest2);
+        let accept = for_root.where_negative(for_class - for_root, for_class);
+        let not = Lanes::of(f64::NAN);
+        let accept = not.where_negative(served, accept);
+        let accept = not.where_negative(radius - Lanes::of(LEAST_SHARE) * reach, accept);
+        let accept = not.where_negative(reach - Lanes::of(LEAST_REACH), accept);
+        let accept = not.where_negative(Lanes::of(GREATEST_REACH) - reach, accept);
+        for l in 0..LANES {
+            self.origin[0][i + l] = -o[0].0[l] as f32;
+            self.origin[1][i + l] = -o[1].0[l] as f32;
+            self.origin[2][i + l] = -o[2].0[l] as f32;
+            self.c[i + l] = c.0[l] as f32;
+            self.r2[i + l] = r2.0[l] as f32;
+            self.doubt[i + l] = doubt.0[l] as f32;
+            self.accept[i + l] = accept.0[l] as f32;
+        }
+    }
+
     /// Whether sphere `i` of the block lies behind the eye.
     pub(super) const fn is_behind(&self, i: usize) -> bool {
         self.behind[i]
@@ -351,7 +394,7 @@ impl Projector {
     pub(super) fn spans(&self, sphere: &Sphere) -> Spans {
         let o = sphere.center.as_dvec3() - self.origin;
         let radius = f64::from(sphere.radius);
-        let reach = o.abs().element_sum() + radius;
+        let reach = o.abs().element_sum() + radius + self.spread;
         let widened = radius + RAY_ERROR * reach + self.origin_error;
         let center = self.axes.map(|axis| o.dot(axis));
         Spans::new(center, widened, self.perspective).in_pixels(self.scale, self.middle)
@@ -368,7 +411,8 @@ impl Projector {
         let radius = Lanes::load(&block.radius, i);
         let [right, down, forward] = self.axes;
         let [a, b, z] = [along(right, o), along(down, o), along(forward, o)];
-        let reach = o[0].abs() + o[1].abs() + o[2].abs() + radius;
+        // At least |o| + r.
+        let reach = o[0].abs() + o[1].abs() + o[2].abs() + radius + Lanes::of(self.spread);
         let widened = radius + Lanes::of(RAY_ERROR) * reach + Lanes::of(self.origin_error);
 
         let across = span::<PERSPECTIVE>(a, z, widened);
@@ -377,7 +421,7 @@ impl Projector {
         let least = ((z - widened) * Lanes::of(1.0 - 2.0 * RAY_ERROR)).at_least(0.0);
         let [left, right] = self.pixels(across, 0);
         let [top, bottom] = self.pixels(down, 1);
-        self.prepare_singles::<PERSPECTIVE>(block, i, o, radius, least);
+        block.prepare_singles::<PERSPECTIVE>(i, o, reach, radius, least);
         for l in 0..LANES {
             block.left[i + l] = left[l];
             block.right[i + l] = right[l];
@@ -386,50 +430,6 @@ impl Projector {
             block.least[i + l] = least.0[l] as f32;
             // What is not a number is not behind.
             block.behind[i + l] = last_depth.0[l] <= 0.0;
-        }
-    }
-
-    /// Makes ready for the test in binary32; where it does not serve, `accept` is not a number.
-    ///
-    /// A root C/(|b| + √D) with D > kA·`doubt` is off by ½√(`doubt`/kC) of itself, plus 4u|o|/√C for b
-    /// and a few u. Where C ≥ o²/4 that is below 2⁻¹⁴ + 12u if k·`doubt` ≥ 2²⁶`doubt`²/C. A root
-    /// (|b| − √D)/A of parallel rays is no less than `least`, which takes the place of √C; |o| is then at
-    /// most 64 times that, which makes 4u|o| no more than 2⁻¹⁶ of it.
-    #[inline(always)]
-    fn prepare_singles<const PERSPECTIVE: bool>(
-        &self,
-        block: &mut Block,
-        i: usize,
-        o: [Lanes; 3],
-        radius: Lanes,
-        least: Lanes,
-    ) {
-        let o2 = dot(o, o);
-        let r2 = radius * radius;
-        let c = o2 - r2;
-        let (reach, nearest2, served) = if PERSPECTIVE {
-            (o2.sqrt(), c, c - Lanes::of(0.25) * o2)
-        } else {
-            let reach = o[0].abs() + o[1].abs() + o[2].abs() + Lanes::of(self.spread);
-            (reach, least * least, Lanes::of(64.0) * least - reach)
-        };
-        let doubt = Lanes::of(SINGLE_ERROR) * radius * (reach + radius);
-        let for_class = doubt + doubt;
-        let for_root = doubt * doubt / (Lanes::of(4.0 * ROOT_ERROR * ROOT_ERROR) * nearest2);
-        let accept = for_root.where_negative(for_class - for_root, for_class);
-        let not = Lanes::of(f64::NAN);
-        let accept = not.where_negative(served, accept);
-        let accept = not.where_negative(radius - Lanes::of(LEAST_SHARE) * reach, accept);
-        let accept = not.where_negative(reach - Lanes::of(LEAST_REACH), accept);
-        let accept = not.where_negative(Lanes::of(GREATEST_REACH) - reach, accept);
-        for l in 0..LANES {
-            block.origin[0][i + l] = -o[0].0[l] as f32;
-            block.origin[1][i + l] = -o[1].0[l] as f32;
-            block.origin[2][i + l] = -o[2].0[l] as f32;
-            block.c[i + l] = c.0[l] as f32;
-            block.r2[i + l] = r2.0[l] as f32;
-            block.doubt[i + l] = doubt.0[l] as f32;
-            block.accept[i + l] = accept.0[l] as f32;
         }
     }
 

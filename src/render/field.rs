@@ -1,12 +1,11 @@
 //! The rays of a picture, in arrays, kept for as long as the camera does not move.
 
-use std::iter::repeat_n;
 use std::ops::Range;
 
 use glam::Vec3;
 
 use super::cover::Bounds;
-use super::lanes::{LANES, Lanes, Real, SINGLES, dot};
+use super::lanes::{LANES, Lanes, Real, dot};
 use crate::geometry::Ray;
 use crate::scene::{Rays, Size};
 
@@ -111,9 +110,7 @@ impl Field {
         if self.perspective || self.a.is_empty() {
             let a = dot(d, d);
             self.a.push(a);
-            // Of parallel rays one A serves all, and all lanes.
-            let lanes = if self.perspective { 1 } else { SINGLES };
-            self.a_single.extend(repeat_n(a as f32, lanes));
+            self.a_single.push(a as f32);
         }
     }
 
@@ -231,11 +228,10 @@ impl Field {
         }
     }
 
-    /// What varies, from a place on, in binary32.
-    #[inline(always)]
-    pub(super) fn varying_singles(&self, place: usize) -> [&[f32; SINGLES]; 3] {
+    /// What varies, at each place, in binary32.
+    pub(super) const fn varying_singles(&self) -> [&[f32]; 3] {
         let [x, y, z] = &self.varying;
-        [run_of(x, place), run_of(y, place), run_of(z, place)]
+        [x.as_slice(), y.as_slice(), z.as_slice()]
     }
 
     /// What all rays share, as it is.
@@ -243,10 +239,9 @@ impl Field {
         self.shared.to_array()
     }
 
-    /// A = d·d, from a place on, rounded to binary32.
-    #[inline(always)]
-    pub(super) fn a_singles(&self, place: usize) -> &[f32; SINGLES] {
-        run_of(&self.a_single, if self.perspective { place } else { 0 })
+    /// A = d·d rounded to binary32: at each place (perspective) or once for all.
+    pub(super) const fn a_singles(&self) -> &[f32] {
+        self.a_single.as_slice()
     }
 
     /// Whether products with any A stay within the range of binary32, if the other factors do by far.
@@ -258,12 +253,4 @@ impl Field {
     pub(super) const fn constant_b(&self) -> bool {
         self.constant_b
     }
-}
-
-/// The run of numbers that begins at a place.
-#[inline(always)]
-fn run_of(numbers: &[f32], place: usize) -> &[f32; SINGLES] {
-    numbers[place..]
-        .first_chunk()
-        .expect("a run lies within the picture")
 }

@@ -6,6 +6,8 @@
     reason = "a comparison that may be skipped is a branch, and a loop with branches is not compiled to vectors"
 )]
 
+use std::array::from_fn;
+
 use super::cover::{Bounds, Single, Spans};
 use super::field::{Field, TILE};
 use super::lanes::{LANES, Lanes, Real, SINGLES, cross, dot, sub};
@@ -38,20 +40,20 @@ pub(super) struct Question<'a> {
 
 /// One sphere, and where to ask about it.
 #[derive(Clone, Copy)]
-pub(super) struct Candidate {
+pub(super) struct Candidate<'a> {
     /// Its place in the list of bodies.
     pub number: u32,
     /// The pixels at which it may be seen.
     pub bounds: Bounds,
     /// Which columns of them in each row, if that is known.
-    pub spans: Option<Spans>,
+    pub spans: Option<&'a Spans>,
     /// No visible root is below this.
     pub least: f32,
     /// What the test in binary32 needs, if it serves.
     pub single: Option<Single>,
 }
 
-impl Candidate {
+impl Candidate<'_> {
     /// Whether it is wide enough for the rows' own quadratics to pay.
     pub(super) const fn is_wide(bounds: Bounds) -> bool {
         bounds.right - bounds.left >= WORTH_SPANS
@@ -59,7 +61,7 @@ impl Candidate {
 
     #[inline(always)]
     fn columns(&self, y: i16) -> [i16; 2] {
-        match &self.spans {
+        match self.spans {
             Some(spans) => spans.at(y, self.bounds),
             None => [self.bounds.left, self.bounds.right],
         }
@@ -203,16 +205,21 @@ impl Nearest {
     }
 
     /// Whether everything seen within `bounds` is nearer than `least`.
-    #[inline]
+    #[inline(always)]
     pub(super) fn hides(&self, bounds: Bounds, least: f32) -> bool {
-        let [left, right, top, bottom] = [bounds.left, bounds.right, bounds.top, bounds.bottom]
-            .map(|pixel| pixel as usize / TILE);
-        (top..=bottom).all(|row| {
-            let row = row * self.tiles.across;
-            self.tiles.far[row + left..=row + right]
-                .iter()
-                .all(|&far| is_before(far, least))
-        })
+        let [left, right] = [bounds.left as usize / TILE, bounds.right as usize / TILE];
+        let [top, bottom] =
+            [bounds.top, bounds.bottom].map(|y| y as usize / TILE * self.tiles.across);
+        let far = &self.tiles.far;
+        // Most spheres lie within the four tiles of their corners.
+        let corners = far[top + left]
+            .max(far[top + right])
+            .max(far[bottom + left].max(far[bottom + right]));
+        is_before(corners, least)
+            && (top..=bottom).step_by(self.tiles.across).all(|row| {
+                let mut tiles = far[row + left..=row + right].iter();
+                tiles.all(|&far| is_before(far, least))
+            })
     }
 
     /// Asks about one sphere.
@@ -264,7 +271,7 @@ impl Nearest {
         }
     }
 
-    /// Makes a test of the runs of pixels that may see the sphere.
+    /// Tests the patches of pixels that may see the sphere.
     #[inline(always)]
     fn test_runs<T: Test>(
         &mut self,
@@ -274,21 +281,29 @@ impl Nearest {
         counts: &mut Counts,
     ) {
         let stride = field.stride();
-        // Runs begin at the sphere's own left edge: a small one takes one run a row. A run that would
-        // leave the row begins earlier: asking twice, or beyond an edge, changes nothing.
-        let latest = stride - T::RUN;
-        for y in candidate.bounds.top..=candidate.bounds.bottom {
+        // Patches begin at the sphere's own left edge: a small one takes one patch a row. A patch that
+        // would leave the picture begins earlier: asking twice, or beyond an edge, changes nothing.
+        let latest = stride - T::COLUMNS;
+        let lowest = field.size().height as usize - T::ROWS;
+        for y in (candidate.bounds.top..=candidate.bounds.bottom).step_by(T::ROWS) {
             let [left, right] = candidate.columns(y);
             if left > right {
                 continue;
             }
-            counts.note_row(left, right);
-            let y = y as usize;
+            let rows = (candidate.bounds.bottom - y + 1).min(T::ROWS as i16);
+            counts.note_rows(rows, [left, right]);
+            let y = (y as usize).min(lowest);
             let tiles = y / TILE * self.tiles.across;
-            for x in (left as usize..=right as usize).step_by(T::RUN) {
+            let tiles_below = (y + T::ROWS - 1) / TILE * self.tiles.across;
+            for x in (left as usize..=right as usize).step_by(T::COLUMNS) {
                 let x = x.min(latest);
-                let [first, last] = [tiles + x / TILE, tiles + (x + T::RUN - 1) / TILE];
-                let far = self.tiles.far[first].max(self.tiles.far[last]);
+                let [column, last] = [x / TILE, (x + T::COLUMNS - 1) / TILE];
+                let first = tiles + column;
+                let mut far = self.tiles.far[first].max(self.tiles.far[tiles + last]);
+                if T::ROWS > 1 {
+                    let below = &self.tiles.far;
+                    far = far.max(below[tiles_below + column].max(below[tiles_below + last]));
+                }
                 if is_before(far, candidate.least) {
                     counts.hidden_runs += 1;
                     continue;
@@ -297,6 +312,28 @@ impl Nearest {
                 self.note_change(first, changed);
             }
         }
+    }
+
+    /// Tests the one patch that may see the sphere, without a loop whose end cannot be foreseen.
+    #[inline(always)]
+    fn test_patch<T: Test>(
+        &mut self,
+        test: &T,
+        field: &Field,
+        candidate: &Candidate,
+        counts: &mut Counts,
+    ) {
+        let Bounds {
+            left,
+            right,
+            top,
+            bottom,
+        } = candidate.bounds;
+        counts.note_rows(bottom - top + 1, [left, right]);
+        let x = (left as usize).min(field.stride() - T::COLUMNS);
+        let y = (top as usize).min(field.size().height as usize - T::ROWS);
+        let changed = test.run(self, field.place(x as u32, y as u32), counts);
+        self.note_change(y / TILE * self.tiles.across + x / TILE, changed);
     }
 
     #[inline(always)]
@@ -310,17 +347,32 @@ impl Nearest {
         let (field, number) = (question.field, candidate.number);
         if !PERSPECTIVE && field.constant_b() {
             // Worked out for one pixel, it holds for all of them.
-            let [x, y, z] = field.varying_singles(0);
+            let [x, y, z] = field.varying_singles();
             let o = sub([x[0], y[0], z[0]], single.origin);
-            let test = InSingles::<PERSPECTIVE, ROOTS, true> {
+            let test = InSingles::<PERSPECTIVE, ROOTS, true, 1> {
                 question,
                 number,
                 single,
                 b: dot(o, field.shared_singles()),
             };
             self.test_runs(&test, field, candidate, counts);
+            return;
+        }
+        let is_small = candidate.bounds.right - candidate.bounds.left < SINGLES as i16 / 2;
+        if PERSPECTIVE && is_small && field.size().height > 1 {
+            let test = InSingles::<PERSPECTIVE, ROOTS, false, 2> {
+                question,
+                number,
+                single,
+                b: 0.0,
+            };
+            if candidate.bounds.rows() <= 2 {
+                self.test_patch(&test, field, candidate, counts);
+            } else {
+                self.test_runs(&test, field, candidate, counts);
+            }
         } else {
-            let test = InSingles::<PERSPECTIVE, ROOTS, false> {
+            let test = InSingles::<PERSPECTIVE, ROOTS, false, 1> {
                 question,
                 number,
                 single,
@@ -349,13 +401,13 @@ impl Nearest {
         &mut self,
         question: &Question,
         number: u32,
-        place: usize,
+        places: [usize; N],
         open: [u32; N],
         counts: &mut Counts,
     ) -> bool {
         let mut changed = false;
         for l in (0..N).filter(|&l| open[l] != 0) {
-            changed |= self.ask_at(question, number, place + l, counts);
+            changed |= self.ask_at(question, number, places[l], counts);
         }
         changed
     }
@@ -434,17 +486,24 @@ impl Nearest {
     }
 }
 
-/// A test of a run of pixels about one sphere.
+/// A test of a patch of pixels about one sphere.
 trait Test {
-    /// How many pixels.
-    const RUN: usize;
+    /// How many columns and rows of pixels.
+    const COLUMNS: usize;
+    const ROWS: usize;
 
-    /// Tests the run that begins at `place`; whether any of its pixels now sees the sphere.
+    /// Tests the patch that begins at `place`; whether any of its pixels now sees the sphere.
     fn run(&self, nearest: &mut Nearest, place: usize, counts: &mut Counts) -> bool;
 }
 
-/// The certified test in binary32.
-struct InSingles<'a, const PERSPECTIVE: bool, const ROOTS: bool, const CONSTANT_B: bool> {
+/// The certified test in binary32, of one row of eight pixels or two of four.
+struct InSingles<
+    'a,
+    const PERSPECTIVE: bool,
+    const ROOTS: bool,
+    const CONSTANT_B: bool,
+    const ROWS: usize,
+> {
     question: &'a Question<'a>,
     number: u32,
     single: &'a Single,
@@ -452,19 +511,35 @@ struct InSingles<'a, const PERSPECTIVE: bool, const ROOTS: bool, const CONSTANT_
     b: f32,
 }
 
-impl<const PERSPECTIVE: bool, const ROOTS: bool, const CONSTANT_B: bool> Test
-    for InSingles<'_, PERSPECTIVE, ROOTS, CONSTANT_B>
+impl<const PERSPECTIVE: bool, const ROOTS: bool, const CONSTANT_B: bool, const ROWS: usize> Test
+    for InSingles<'_, PERSPECTIVE, ROOTS, CONSTANT_B, ROWS>
 {
-    const RUN: usize = SINGLES;
+    const COLUMNS: usize = SINGLES / ROWS;
+    const ROWS: usize = ROWS;
 
     #[inline(always)]
     fn run(&self, nearest: &mut Nearest, place: usize, counts: &mut Counts) -> bool {
         let Question { field, .. } = *self.question;
-        let [x, y, z] = field.varying_singles(place);
-        let a = field.a_singles(place);
+        let stride = field.stride();
+        let [x, y, z] = field.varying_singles();
+        let [x, y, z] = [
+            patch::<_, ROWS>(x, place, stride),
+            patch::<_, ROWS>(y, place, stride),
+            patch::<_, ROWS>(z, place, stride),
+        ];
+        // Of parallel rays all have one A.
+        let a = field.a_singles();
+        let a = if PERSPECTIVE {
+            patch::<_, ROWS>(a, place, stride)
+        } else {
+            [a[0]; SINGLES]
+        };
         let shared = field.shared_singles();
         let single = self.single;
-        let seen = Run::<SINGLES>::load(&nearest.layer, place);
+        let seen = Run {
+            t: patch::<_, ROWS>(&nearest.layer.t, place, stride),
+            body: patch::<_, ROWS>(&nearest.layer.body, place, stride),
+        };
         let mut next = seen;
         let mut open = [0; SINGLES];
         let mut changed = [0; SINGLES];
@@ -502,9 +577,12 @@ impl<const PERSPECTIVE: bool, const ROOTS: bool, const CONSTANT_B: bool> Test
         counts.roots += if ROOTS { SINGLES as u64 } else { 0 };
         let changed = any(&changed);
         // Stored in any case: a store costs less than a branch that goes either way.
-        next.store(&mut nearest.layer, place);
+        put_patch::<_, ROWS>(&mut nearest.layer.t, place, stride, &next.t);
+        put_patch::<_, ROWS>(&mut nearest.layer.body, place, stride, &next.body);
         if any(&open) {
-            changed | nearest.settle(self.question, self.number, place, open, counts)
+            let columns = Self::COLUMNS;
+            let places = from_fn(|l| place + l / columns * stride + l % columns);
+            changed | nearest.settle(self.question, self.number, places, open, counts)
         } else {
             changed
         }
@@ -518,7 +596,8 @@ struct InDoubles<'a, const PERSPECTIVE: bool, const INSIDE: bool> {
 }
 
 impl<const PERSPECTIVE: bool, const INSIDE: bool> Test for InDoubles<'_, PERSPECTIVE, INSIDE> {
-    const RUN: usize = LANES;
+    const COLUMNS: usize = LANES;
+    const ROWS: usize = 1;
 
     #[inline(always)]
     fn run(&self, nearest: &mut Nearest, place: usize, counts: &mut Counts) -> bool {
@@ -583,7 +662,8 @@ impl<const PERSPECTIVE: bool, const INSIDE: bool> Test for InDoubles<'_, PERSPEC
         // Stored in any case: a store costs less than a branch that goes either way.
         next.store(&mut nearest.layer, place);
         if any(&open) {
-            changed | nearest.settle(self.question, self.asked.number, place, open, counts)
+            let places = from_fn(|l| place + l);
+            changed | nearest.settle(self.question, self.asked.number, places, open, counts)
         } else {
             changed
         }
@@ -597,7 +677,8 @@ struct Alone<'a> {
 }
 
 impl Test for Alone<'_> {
-    const RUN: usize = 1;
+    const COLUMNS: usize = 1;
+    const ROWS: usize = 1;
 
     #[inline(always)]
     fn run(&self, nearest: &mut Nearest, place: usize, counts: &mut Counts) -> bool {
@@ -631,6 +712,37 @@ impl<const N: usize> Run<N> {
         let run = place..place + N;
         layer.t[run.clone()].copy_from_slice(&self.t);
         layer.body[run].copy_from_slice(&self.body);
+    }
+}
+
+/// The numbers of a patch of pixels, row by row.
+#[inline(always)]
+fn patch<T: Copy + Default, const ROWS: usize>(
+    from: &[T],
+    place: usize,
+    stride: usize,
+) -> [T; SINGLES] {
+    let columns = SINGLES / ROWS;
+    let mut patch = [T::default(); SINGLES];
+    for row in 0..ROWS {
+        let start = place + row * stride;
+        patch[row * columns..][..columns].copy_from_slice(&from[start..start + columns]);
+    }
+    patch
+}
+
+/// Puts the numbers of a patch where [`patch`] takes them from.
+#[inline(always)]
+fn put_patch<T: Copy, const ROWS: usize>(
+    to: &mut [T],
+    place: usize,
+    stride: usize,
+    patch: &[T; SINGLES],
+) {
+    let columns = SINGLES / ROWS;
+    for row in 0..ROWS {
+        let start = place + row * stride;
+        to[start..start + columns].copy_from_slice(&patch[row * columns..][..columns]);
     }
 }
 

@@ -64,12 +64,12 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// Notes a row of a sphere, whose pixels from `left` to `right` are looked at.
+    /// Notes rows of a sphere whose pixels from the first to the last of these columns are looked at.
     #[inline(always)]
-    pub(super) fn note_row(&mut self, left: i16, right: i16) {
-        if left <= right {
-            self.rows += 1;
-            self.spanned += (right - left) as u64 + 1;
+    pub(super) const fn note_rows(&mut self, rows: i16, [first, last]: [i16; 2]) {
+        if first <= last {
+            self.rows += rows as u64;
+            self.spanned += rows as u64 * ((last - first) as u64 + 1);
         }
     }
 

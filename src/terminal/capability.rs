@@ -4,6 +4,7 @@ use std::env;
 use std::io::{self, IsTerminal};
 
 use crate::explain::Glyphs;
+use crate::explorer::Palette;
 use crate::render::ColorDepth;
 
 /// Colours and characters of a terminal.
@@ -15,6 +16,12 @@ pub struct Capability {
     pub depth_reason: &'static str,
     /// Which characters.
     pub glyphs: Glyphs,
+    /// Why these.
+    pub glyphs_reason: &'static str,
+    /// The theme for its ground, as far as that is known.
+    pub palette: Palette,
+    /// Why this one.
+    pub palette_reason: &'static str,
 }
 
 /// Why the explorer can't run here, as a sentence that says what to use instead.
@@ -28,6 +35,7 @@ struct Environment {
     color_term: Option<String>,
     term: Option<String>,
     term_program: Option<String>,
+    color_fg_bg: Option<String>,
     locale: Option<String>,
     ssh: bool,
 }
@@ -40,6 +48,7 @@ impl Environment {
             color_term: get("COLORTERM"),
             term: get("TERM"),
             term_program: get("TERM_PROGRAM"),
+            color_fg_bg: get("COLORFGBG"),
             // The first of the three that is set decides.
             locale: get("LC_ALL")
                 .or_else(|| get("LC_CTYPE"))
@@ -54,8 +63,8 @@ impl Capability {
     pub fn detect() -> Result<Self, Unfit> {
         if !io::stdin().is_terminal() || !io::stdout().is_terminal() {
             return Err(Unfit(
-                "the explorer needs a terminal for input and output; `rayscope print SCENE` \
-                 writes a picture to a pipe or a file",
+                "the explorer needs a terminal for input and output; `rayscope --plain` explores \
+                 through pipes, `rayscope print SCENE` writes a picture",
             ));
         }
         Self::of(&Environment::of_process())
@@ -67,10 +76,11 @@ impl Capability {
         Self::of(&environment)
             .ok()
             .filter(|_| io::stdout().is_terminal())
-            .unwrap_or(Self {
-                depth: ColorDepth::None,
-                depth_reason: "the output does not go to a terminal that has any",
-                glyphs: environment.glyphs(),
+            .unwrap_or_else(|| {
+                environment.with(
+                    ColorDepth::None,
+                    "the output does not go to a terminal that has any",
+                )
             })
     }
 
@@ -79,19 +89,29 @@ impl Capability {
         if term == "dumb" {
             return Err(Unfit(
                 "the explorer can't draw on this terminal (TERM is dumb or not set); \
-                 `rayscope print SCENE` writes a picture as plain text",
+                 `rayscope --plain` explores in lines of text, `rayscope print SCENE` writes a \
+                 picture",
             ));
         }
         let (depth, depth_reason) = environment.depth(term);
-        Ok(Self {
-            depth,
-            depth_reason,
-            glyphs: environment.glyphs(),
-        })
+        Ok(environment.with(depth, depth_reason))
     }
 }
 
 impl Environment {
+    fn with(&self, depth: ColorDepth, depth_reason: &'static str) -> Capability {
+        let (glyphs, glyphs_reason) = self.glyphs();
+        let (palette, palette_reason) = self.palette();
+        Capability {
+            depth,
+            depth_reason,
+            glyphs,
+            glyphs_reason,
+            palette,
+            palette_reason,
+        }
+    }
+
     fn depth(&self, term: &str) -> (ColorDepth, &'static str) {
         if self.no_color.is_some() {
             return (ColorDepth::None, "NO_COLOR is set");
@@ -113,12 +133,28 @@ impl Environment {
         (ColorDepth::Ansi16, "nothing tells of more")
     }
 
-    fn glyphs(&self) -> Glyphs {
+    fn glyphs(&self) -> (Glyphs, &'static str) {
         let locale = self.locale.as_deref().unwrap_or("C").to_ascii_lowercase();
         if locale.contains("utf-8") || locale.contains("utf8") {
-            Glyphs::Unicode
+            (Glyphs::Unicode, "the locale is UTF-8")
+        } else if self.locale.is_none() {
+            (Glyphs::Ascii, "LC_ALL, LC_CTYPE and LANG are not set")
         } else {
-            Glyphs::Ascii
+            (Glyphs::Ascii, "the locale is not UTF-8")
+        }
+    }
+
+    /// The theme for the ground that some terminals tell of: the last of COLORFGBG's numbers is one
+    /// of the sixteen colours, and of those 7 and 15 are light.
+    fn palette(&self) -> (Palette, &'static str) {
+        let ground = self
+            .color_fg_bg
+            .as_deref()
+            .and_then(|v| v.rsplit(';').next());
+        match ground {
+            Some("7" | "15") => (Palette::Light, "COLORFGBG tells of a light ground"),
+            Some(_) => (Palette::Dark, "COLORFGBG tells of a dark ground"),
+            None => (Palette::Dark, "nothing tells of a light ground"),
         }
     }
 }
@@ -164,9 +200,22 @@ mod tests {
     }
 
     #[test]
+    fn a_light_ground_that_is_told_of_gets_the_theme_for_it() {
+        let palette = |v: Option<&str>| {
+            with(|e| e.color_fg_bg = v.map(str::to_owned))
+                .unwrap()
+                .palette
+        };
+        assert_eq!(palette(Some("0;15")), Palette::Light);
+        assert_eq!(palette(Some("0;default;7")), Palette::Light);
+        assert_eq!(palette(Some("15;0")), Palette::Dark);
+        assert_eq!(palette(None), Palette::Dark);
+    }
+
+    #[test]
     fn a_terminal_that_is_none_is_told_what_to_use() {
         let said = with(|e| e.term = Some("dumb".into())).unwrap_err().0;
-        assert!(said.contains("rayscope print"));
+        assert!(said.contains("rayscope --plain") && said.contains("rayscope print"));
         assert!(with(|e| e.term = None).is_err());
     }
 

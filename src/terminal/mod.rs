@@ -9,6 +9,7 @@ mod device;
 mod keyboard;
 mod pace;
 mod painter;
+mod plain;
 mod session;
 mod signals;
 mod wake;
@@ -20,6 +21,7 @@ use ratatui::crossterm::event::Event;
 pub use capability::{Capability, Unfit};
 pub use keyboard::{Heard, Keyboard};
 pub use painter::{Limits, Painter};
+pub use plain::converse;
 pub use session::Session;
 
 use crate::explorer::{Explorer, Request, Waker};
@@ -56,6 +58,8 @@ pub trait Link {
     fn show(&mut self, explorer: &mut Explorer) -> io::Result<()>;
     /// Puts text into the clipboard of whoever sits there, if their terminal does such things.
     fn copy(&mut self, text: &str) -> io::Result<()>;
+    /// Takes the screen to show nobody knows what.
+    fn forget(&mut self);
     /// Stops the explorer, for its shell to take over; false if nobody would let it go on.
     fn suspend(&mut self) -> bool;
 }
@@ -83,6 +87,7 @@ pub fn run(explorer: &mut Explorer, link: &mut impl Link) -> io::Result<u8> {
                     explorer.tell("There is no shell to go back to; q quits.");
                 }
                 Some(Request::Copy(text)) => link.copy(&text)?,
+                Some(Request::Redraw) => link.forget(),
                 Some(Request::Suspend) | None => {}
             }
             if let Some(status) = explorer.ended() {

@@ -38,7 +38,7 @@ impl Limits {
     /// What these options rule out, whatever the explorer draws.
     pub fn of(options: &Options) -> Self {
         Self {
-            colorless: options.depth == ColorDepth::None,
+            colorless: options.colors() == ColorDepth::None,
             ascii: options.glyphs == Glyphs::Ascii,
         }
     }

@@ -306,6 +306,10 @@ impl Link for Session {
         Ok(())
     }
 
+    fn forget(&mut self) {
+        self.painter.forget();
+    }
+
     fn suspend(&mut self) -> bool {
         // The whole job stops, as it would if the terminal had made a signal of the key.
         Device::can_stop() && kill_current_process_group(Signal::TSTP).is_ok()

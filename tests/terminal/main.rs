@@ -37,6 +37,48 @@ fn a_person_opens_moves_reads_saves_and_quits() {
 }
 
 #[test]
+fn a_person_walks_the_whole_tour() {
+    let chapters = rayscope::explorer::tour::builtin();
+    let mut pty = Pty::explorer(Start::default().args(&["tour"]));
+    for (n, chapter) in (1..).zip(chapters.iter()) {
+        let (count, title, pages) = (chapters.len(), &chapter.title, chapter.pages.len());
+        for page in 1..=pages {
+            pty.waits_to_show(&format!("{n}/{count}: {title}, page {page}/{pages} "));
+            for number in numbers_of_the_tutorial(n, page) {
+                pty.waits_to_show(number);
+            }
+            pty.sends("f");
+        }
+    }
+    pty.waits_to_show("This was the last page.");
+    // Off the path, and back on it.
+    pty.sends("3\x1b[C\x1b[C");
+    pty.waits_to_show("slice through ray and centre");
+    pty.sends("r");
+    let (count, last) = (chapters.len(), &chapters[chapters.len() - 1]);
+    let pages = last.pages.len();
+    pty.waits_to_show(&format!(
+        "{count}/{count}: {}, page {pages}/{pages} ",
+        last.title
+    ));
+    pty.sends("q");
+    assert_eq!(pty.ends(), 0);
+    pty.is_restored();
+}
+
+/// What the tutorial prints and a page of the tour shows.
+const fn numbers_of_the_tutorial(chapter: u32, page: usize) -> &'static [&'static str] {
+    match (chapter, page) {
+        (1, 2) => &["2.21x² + 0.44x − 24.96 = 0", "220.84", "3.26", "−3.46"],
+        (1, 4) => &["(−3.46, −3.606)", "(3.26, 3.786)"],
+        (2, 1) => &["(2, 5, 7)", "(4, 10, 14)", "(6, 15, 21)", "(8, 20, 28)"],
+        (4, 1) => &["−40", "300", "400"],
+        (6, 1) => &["317", "++", "--"],
+        _ => &[],
+    }
+}
+
+#[test]
 fn a_terminal_that_can_not_draw_is_told_what_to_use() {
     for start in [
         Start::default().env("TERM", "dumb"),
@@ -240,6 +282,156 @@ fn a_terminal_that_answers_no_query_works_all_the_same() {
     pty.sends("q");
     assert_eq!(pty.ends(), 0);
     pty.is_restored();
+}
+
+#[test]
+fn a_reader_that_stalls_sees_the_last_state_soon_and_after_little() {
+    let mut pty = Pty::explorer(Start::default().args(&["trio"]));
+    for _ in 0..90 {
+        // Nothing is read meanwhile.
+        pty.sends("d");
+    }
+    pty.sends(":cursor 5 5\r");
+    let before = pty.bytes().len();
+    pty.waits_to_show("pixel (5, 5)");
+    let read = pty.bytes().len() - before;
+    assert!(read <= 64 * 1024, "{read} bytes before the last state");
+    pty.sends(":quit!\r");
+    assert_eq!(pty.ends(), 0);
+    pty.is_restored();
+}
+
+#[test]
+fn a_paste_is_no_burst_of_commands() {
+    let mut pty = Pty::explorer(Start::default());
+    assert!(pty.screen().bracketed_paste());
+    pty.sends("\x1b[200~xxq\x03q\r\x1b[201~");
+    pty.waits_to_show("A paste is not taken for keys");
+    pty.sends(":\x1b[200~cursor 1 2\x1b[201~\r");
+    pty.waits_to_show("pixel (1, 2)");
+    pty.sends("q");
+    assert_eq!(pty.ends(), 0);
+    pty.is_restored();
+}
+
+#[test]
+fn the_mouse_is_asked_for_by_a_key_and_given_back() {
+    let mut pty = Pty::explorer(Start::default());
+    assert_eq!(pty.occurrences(b"\x1b[?1000h"), 0);
+    pty.sends("$");
+    pty.waits_for("the mouse", |p| {
+        p.screen().mouse_protocol_mode() == vt100::MouseProtocolMode::PressRelease
+    });
+    // The cell at the top left of the picture.
+    pty.sends("\x1b[<0;2;3M\x1b[<0;2;3m");
+    pty.waits_to_show("pixel (0, 0)");
+    pty.sends("\x1b[<64;9;9M");
+    pty.waits_to_show("unsaved");
+    pty.sends("$");
+    pty.waits_for("the mouse given back", |p| {
+        p.screen().mouse_protocol_mode() == vt100::MouseProtocolMode::None
+    });
+    pty.sends("$");
+    pty.waits_to_show("a click moves");
+    pty.is_sent(Signal::TERM);
+    assert_eq!(pty.ends(), 143);
+    pty.is_restored();
+    for other in ["1002", "1003", "1015"] {
+        assert_eq!(pty.occurrences(format!("\x1b[?{other}h").as_bytes()), 0);
+    }
+}
+
+#[test]
+fn the_screen_is_drawn_again_by_a_key() {
+    let mut pty = Pty::explorer(Start::default());
+    let first = seen::cells(pty.screen());
+    pty.garbles("\x1b[2J\x1b[5;5Hsomebody wrote over it\x1b[1;31m");
+    assert_ne!(seen::cells(pty.screen()), first);
+    pty.sends("\x0c");
+    pty.waits_for("the first screen again", |p| {
+        seen::cells(p.screen()) == first
+    });
+    pty.sends("q");
+    assert_eq!(pty.ends(), 0);
+}
+
+#[test]
+fn colours_are_as_many_as_are_asked_for() {
+    let start = Start::default;
+    let flag = |value| start().args(&["--color", value]);
+    for (start, keys, expected) in [
+        (start().env("COLORTERM", "truecolor"), "", "direct"),
+        (start(), "", "indexed"),
+        (flag("never"), "", "none"),
+        (flag("16"), "", "basic"),
+        (flag("256").env("NO_COLOR", "1"), "", "indexed"),
+        (start().env("RAYSCOPE_COLOR", "never"), "", "none"),
+        (start().env("RAYSCOPE_THEME", "monochrome"), "##", "none"),
+        (start().env("NO_COLOR", "1"), "#", "basic"),
+    ] {
+        let mut pty = Pty::explorer(start);
+        pty.sends(keys);
+        pty.sends("l");
+        pty.waits_to_show("pixel (21, 20)");
+        pty.sends("q");
+        assert_eq!(pty.ends(), 0);
+        let found = if pty.occurrences(b"8;2;") > 0 {
+            "direct"
+        } else if pty.occurrences(b"8;5;") > 0 {
+            "indexed"
+        } else if pty.sets_colors() {
+            "basic"
+        } else {
+            "none"
+        };
+        assert_eq!(found, expected);
+    }
+}
+
+#[test]
+fn ascii_is_written_where_it_is_asked_for() {
+    let mut pty = Pty::explorer(Start::default().args(&["trio", "--ascii"]));
+    pty.sends("dbbbvvv?\x1b=\x1b:quit!\r");
+    assert_eq!(pty.ends(), 0);
+    assert!(pty.bytes().is_ascii());
+}
+
+#[test]
+fn lines_of_text_work_on_every_terminal_and_move_no_cursor() {
+    for term in ["dumb", "xterm-256color"] {
+        let mut pty = Start::default().args(&["--plain"]).env("TERM", term).open();
+        pty.waits_to_show("> ");
+        pty.sends("cursor-right 3\r");
+        pty.waits_to_show("pixel (23, 20)");
+        pty.sends("move-x-plus\r");
+        pty.waits_to_show("unsaved yes");
+        pty.sends("quit\r");
+        pty.waits_to_show("Unsaved changes");
+        pty.sends("esc\r");
+        pty.waits_to_show("Nothing was changed.");
+        pty.sends("undo\rquit\r");
+        assert_eq!(pty.ends(), 0);
+        assert!(!pty.bytes().contains(&0x1b), "an escape sequence");
+        pty.is_restored();
+    }
+}
+
+#[test]
+fn lines_of_text_lose_nothing_with_their_terminal() {
+    let start = || Start::default().args(&["--plain"]);
+    let mut pty = start().open();
+    pty.waits_to_show("> ");
+    pty.sends("move-x-plus\r");
+    pty.waits_to_show("unsaved yes");
+    let home = pty.home();
+    assert_eq!(pty.hangs_up(), 129);
+    let mut pty = start().home(&home).open();
+    pty.waits_to_show("Unsaved work of");
+    pty.sends("o\r");
+    pty.waits_to_show("center.x 21");
+    pty.is_sent(Signal::TERM);
+    assert_eq!(pty.ends(), 143);
+    assert!(pty.shows("unsaved work is kept in"));
 }
 
 impl Pty {

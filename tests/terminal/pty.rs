@@ -230,6 +230,11 @@ impl Pty {
             .expect("the terminal takes keys");
     }
 
+    /// Shows on the terminal what somebody else has written.
+    pub fn garbles(&mut self, bytes: &str) {
+        self.screen.process(bytes.as_bytes());
+    }
+
     pub fn resizes(&mut self, cols: u16, rows: u16) {
         self.master.resize(pty_size((cols, rows))).expect("a size");
         let [cols, rows] = [cols, rows].map(|n| NonZeroU16::new(n).unwrap_or(NonZeroU16::MIN));
@@ -299,6 +304,7 @@ impl Pty {
         self.reader.stop.store(true, Ordering::SeqCst);
         // What the program writes next lets the reader see that it is to stop.
         self.resizes(81, 25);
+        self.sends("\n");
         let Self {
             reader,
             writer,

@@ -40,7 +40,7 @@ pub(super) struct Solve {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["ray", "sphere", "format"])]
     batch: Option<PathBuf>,
     /// The way to evaluate the quadratic
-    #[arg(long, value_name = "METHOD", value_parser = choice(&Method::ALL, Method::name), default_value_t = Method::default())]
+    #[arg(long, value_name = "METHOD", env = "RAYSCOPE_METHOD", hide_env_values = true, value_parser = choice(&Method::ALL, Method::name), default_value_t = Method::default())]
     method: Method,
     /// How the derivation of one intersection is written
     #[arg(long, value_name = "FORMAT", value_enum, default_value_t)]

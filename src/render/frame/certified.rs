@@ -3,13 +3,11 @@
 
 use super::Frame;
 use super::memory::Memory;
-use crate::geometry::Sphere;
 use crate::method::exact;
 use crate::method::simd::{self, Kernel};
 use crate::render::View;
 use crate::render::bounds::Eye;
 use crate::render::cover::{BLOCK, Block, Bounds, Projector};
-use crate::render::field::Field;
 use crate::render::finish;
 use crate::render::lanes::SINGLES;
 use crate::render::layer::{Contact, NOBODY};
@@ -76,6 +74,23 @@ impl Frame {
         self.nearest.trim(&self.field);
     }
 
+    /// How many spheres can be seen, were it not for others.
+    pub(super) fn bound_certified(&mut self, scene: &Scene, rays: &Rays) -> usize {
+        let projector = Projector::new(rays);
+        let mut seen = 0;
+        for chunk in scene.bodies.chunks(BLOCK) {
+            let block = &mut self.block;
+            simd::dispatch(Bounding {
+                projector: &projector,
+                chunk,
+                block,
+            });
+            let is_seen = |&i: &usize| !self.block.bounds(i).is_empty();
+            seen += (0..chunk.len()).filter(is_seen).count();
+        }
+        seen
+    }
+
     /// Asks again for the nearest hits within `part`.
     pub(super) fn find_nearest_within(&mut self, scene: &Scene, rays: &Rays, part: Bounds) {
         self.nearest.reopen(&self.field, part);
@@ -93,17 +108,14 @@ impl Frame {
             projector.bound_one(sphere, &mut self.block);
             let bounds = self.block.bounds(0).within(part);
             if !bounds.is_empty() {
-                let candidate = candidate(
+                ask(
+                    &mut self.nearest,
+                    &question,
                     &projector,
-                    &self.field,
                     (&self.block, 0),
-                    number,
-                    sphere,
-                    bounds,
+                    (number, bounds),
+                    &mut self.plan.counts,
                 );
-                self.plan.counts.asked += 1;
-                let counts = &mut self.plan.counts;
-                self.nearest.ask(&question, &candidate, counts);
             }
         }
         self.nearest.trim(&self.field);
@@ -153,6 +165,20 @@ impl Frame {
     }
 }
 
+/// Bounds the spheres of a block.
+struct Bounding<'a> {
+    projector: &'a Projector,
+    chunk: &'a [Body],
+    block: &'a mut Block,
+}
+
+impl Kernel for Bounding<'_> {
+    #[inline(always)]
+    fn run(self) {
+        self.projector.bound(self.chunk, self.block);
+    }
+}
+
 /// Bounds the spheres of a block and asks about each where it can be seen.
 struct Search<'a> {
     projector: &'a Projector,
@@ -177,7 +203,7 @@ impl Kernel for Search<'_> {
             ..
         } = self;
         projector.bound(self.chunk, block);
-        for (i, body) in self.chunk.iter().enumerate() {
+        for i in 0..self.chunk.len() {
             let (bounds, least) = (block.bounds(i), block.least(i));
             if bounds.is_empty() {
                 if block.is_behind(i) {
@@ -188,39 +214,40 @@ impl Kernel for Search<'_> {
             } else if nearest.hides(bounds, least) {
                 counts.hidden += 1;
             } else {
-                let number = self.first + i as u32;
-                let candidate = candidate(
-                    projector,
-                    question.field,
-                    (block, i),
-                    number,
-                    &body.sphere,
-                    bounds,
-                );
-                counts.asked += 1;
-                nearest.ask(&question, &candidate, counts);
+                let asked = (self.first + i as u32, bounds);
+                ask(nearest, &question, projector, (block, i), asked, counts);
             }
         }
     }
 }
 
-/// Sphere `i` of a block, to be asked about within `bounds`.
+/// Asks about sphere `i` of a block within `bounds`.
 #[inline(always)]
-fn candidate(
+fn ask(
+    nearest: &mut Nearest,
+    question: &Question,
     projector: &Projector,
-    field: &Field,
     (block, i): (&Block, usize),
-    number: u32,
-    sphere: &Sphere,
-    bounds: Bounds,
-) -> Candidate {
-    Candidate {
+    (number, bounds): (u32, Bounds),
+    counts: &mut Counts,
+) {
+    counts.asked += 1;
+    let spans;
+    let is_wide = Candidate::is_wide(bounds);
+    let spans = if is_wide {
+        spans = projector.spans(&question.bodies[number as usize].sphere);
+        Some(&spans)
+    } else {
+        None
+    };
+    let candidate = Candidate {
         number,
         bounds,
-        spans: Candidate::is_wide(bounds).then(|| projector.spans(sphere)),
+        spans,
         least: block.least(i),
         single: block
             .single(i, projector.perspective)
-            .filter(|_| field.ordinary()),
-    }
+            .filter(|_| question.field.ordinary()),
+    };
+    nearest.ask(question, &candidate, counts);
 }

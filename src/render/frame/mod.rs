@@ -22,7 +22,7 @@ use super::shade;
 use crate::geometry::Sphere;
 use crate::method::Method;
 use crate::method::exact::Stage;
-use crate::scene::{Rays, Scene, Size};
+use crate::scene::{Body, Rays, Scene, Size};
 use memory::{MOST, Memory};
 
 /// What is seen at a pixel.
@@ -119,6 +119,20 @@ impl Frame {
         self.plan = Plan::of_everything(scene, rays, method, view);
         self.start(scene, rays);
         self.find_range();
+    }
+
+    /// Only works out where each sphere can be seen, as the first part of a whole frame, and forgets it;
+    /// how many can be. For measuring what planning costs.
+    pub fn bound_only(&mut self, scene: &Scene, rays: &Rays, method: Method, view: View) -> usize {
+        let plan = Plan::new(scene, rays, false, method, view);
+        match plan.way() {
+            Way::Certified => self.bound_certified(scene, rays),
+            Way::Widened | Way::Everything => {
+                let eye = Eye::new(rays);
+                let is_seen = |body: &&Body| !eye.window(&body.sphere, 1.0).is_empty();
+                scene.bodies.iter().filter(is_seen).count()
+            }
+        }
     }
 
     /// The whole picture anew.

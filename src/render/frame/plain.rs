@@ -86,7 +86,7 @@ impl Frame {
                     Some(spans) => spans.at(y, bounds),
                     None => [bounds.left, bounds.right],
                 };
-                self.plan.counts.note_row(columns[0], columns[1]);
+                self.plan.counts.note_rows(1, columns);
                 for place in self.field.run(y, columns) {
                     self.ask(place, number, &body.sphere);
                 }

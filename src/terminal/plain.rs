@@ -1,0 +1,195 @@
+//! The explorer without a screen: lines in, lines out, on a terminal or through pipes.
+
+use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::os::fd::AsFd;
+use std::sync::mpsc;
+
+use rustix::event::{PollFd, PollFlags, poll};
+use rustix::io::{Errno, read};
+use rustix::stdio::stdin;
+
+use super::HUNG_UP;
+use super::signals::{self, Asked, Signals};
+use crate::explorer::{Explorer, Reply, Waker};
+
+/// No line of a person or of a sane script is longer, in bytes.
+const LONGEST_LINE: usize = 1 << 16;
+const READ_BYTES: usize = 4096;
+const PROMPT: &str = "> ";
+/// The exit status of a script of which a line could not be done.
+const REFUSED: u8 = 1;
+
+/// Converses until the person leaves, the input ends or a signal says so; the exit status.
+///
+/// Somebody who is `present` is prompted and asked; in a script a line that can't be done makes the
+/// exit status 1, and nothing is asked.
+pub fn converse(explorer: &mut Explorer, present: bool) -> io::Result<u8> {
+    let (sender, woken) = mpsc::channel();
+    explorer.wake_by(Waker::new(move || {
+        // Nobody waits any more: then nobody misses it.
+        let _ = sender.send(());
+    }));
+    let mut lines = Lines::new()?;
+    if !present {
+        explorer.put_off();
+    }
+    let mut any_refused = false;
+    let mut reply = explorer.greeting();
+    loop {
+        any_refused |= reply.refused;
+        // Who leaves a script leaves unsaved work to the recovery file.
+        let left = explorer.is_asking_to_quit() && !present;
+        let status = explorer.ended().or(left.then_some(0));
+        if left {
+            reply.question = None;
+        }
+        if !say(&reply, present && status.is_none())? {
+            return Ok(0);
+        }
+        let status = match status {
+            Some(status) => Some(status),
+            None => match lines.next()? {
+                Heard::Line(line) => {
+                    reply = explorer.obey(&line);
+                    while explorer.is_measuring() && woken.recv().is_ok() {
+                        explorer.catch_up();
+                    }
+                    None
+                }
+                Heard::TooLong => {
+                    reply = Reply {
+                        text: format!("A line is longer than {LONGEST_LINE} bytes.\n"),
+                        question: None,
+                        refused: true,
+                    };
+                    None
+                }
+                Heard::End(status) => Some(status),
+            },
+        };
+        match status {
+            Some(0) if any_refused && !present => return Ok(REFUSED),
+            Some(status) => return Ok(status),
+            None => {}
+        }
+    }
+}
+
+/// Writes a reply and, to somebody who is there, the prompt; false if nobody reads any more.
+fn say(reply: &Reply, prompt: bool) -> io::Result<bool> {
+    let mut out = io::stdout().lock();
+    let question = reply.question.as_deref().unwrap_or_default();
+    let prompt = if prompt { PROMPT } else { "" };
+    let written = out
+        .write_all([reply.text.as_str(), question, prompt].concat().as_bytes())
+        .and_then(|()| out.flush());
+    match written {
+        Ok(()) => Ok(true),
+        Err(e) if e.kind() == ErrorKind::BrokenPipe => Ok(false),
+        Err(e) => Err(e),
+    }
+}
+
+/// What comes in.
+enum Heard {
+    Line(String),
+    TooLong,
+    /// No more is to come; the exit status.
+    End(u8),
+}
+
+/// Standard input, line by line, and the signals beside it.
+struct Lines {
+    signals: Signals,
+    pending: Vec<u8>,
+    /// The line at hand is too long: the rest of it is passed over.
+    is_skipping: bool,
+    is_over: bool,
+    /// It is a terminal, whose end is no end of a script.
+    is_terminal: bool,
+}
+
+impl Lines {
+    fn new() -> io::Result<Self> {
+        Ok(Self {
+            signals: Signals::take()?,
+            pending: Vec::new(),
+            is_skipping: false,
+            is_over: false,
+            is_terminal: io::stdin().is_terminal(),
+        })
+    }
+
+    fn next(&mut self) -> io::Result<Heard> {
+        loop {
+            if let Some(heard) = self.take_line() {
+                return Ok(heard);
+            }
+            if self.is_over {
+                return Ok(Heard::End(0));
+            }
+            if let Some(status) = self.wait()? {
+                return Ok(Heard::End(status));
+            }
+        }
+    }
+
+    /// The first whole line of what has come in; at the end, what there is.
+    fn take_line(&mut self) -> Option<Heard> {
+        let end = self.pending.iter().position(|&b| b == b'\n');
+        let length = match end {
+            Some(at) => at + 1,
+            None if self.is_over && !self.pending.is_empty() => self.pending.len(),
+            None => {
+                if self.pending.len() > LONGEST_LINE {
+                    self.pending.clear();
+                    self.is_skipping = true;
+                }
+                return None;
+            }
+        };
+        let line: Vec<u8> = self.pending.drain(..length).collect();
+        if std::mem::take(&mut self.is_skipping) || line.len() > LONGEST_LINE {
+            return Some(Heard::TooLong);
+        }
+        Some(Heard::Line(String::from_utf8_lossy(&line).into_owned()))
+    }
+
+    /// Waits for input or a signal; the exit status if it is over.
+    fn wait(&mut self) -> io::Result<Option<u8>> {
+        let mut files = [
+            PollFd::from_borrowed_fd(stdin(), PollFlags::IN),
+            PollFd::from_borrowed_fd(self.signals.as_fd(), PollFlags::IN),
+        ];
+        match poll(&mut files, None) {
+            Ok(_) | Err(Errno::INTR) => {}
+            Err(e) => return Err(e.into()),
+        }
+        let [input, signal] = files.map(|f| f.revents());
+        if !signal.is_empty() {
+            for asked in self.signals.pending().collect::<Vec<_>>() {
+                match asked {
+                    Asked::End(status) => return Ok(Some(status)),
+                    Asked::Stop => signals::stop()?,
+                    Asked::GoOn | Asked::Resize => {}
+                }
+            }
+        }
+        if input.is_empty() {
+            return Ok(None);
+        }
+        if self.is_terminal && input.intersects(PollFlags::HUP | PollFlags::ERR) {
+            return Ok(Some(HUNG_UP));
+        }
+        let mut bytes = [0; READ_BYTES];
+        match read(stdin(), &mut bytes) {
+            Ok(0) => self.is_over = true,
+            Ok(n) => self.pending.extend_from_slice(&bytes[..n]),
+            Err(Errno::INTR | Errno::AGAIN) => {}
+            // The terminal is closed.
+            Err(Errno::IO) => return Ok(Some(HUNG_UP)),
+            Err(e) => return Err(e.into()),
+        }
+        Ok(None)
+    }
+}

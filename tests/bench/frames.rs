@@ -1,4 +1,0 @@
-//! Times whole frames.
-fn main() {
-    rayscope::lab::frames::sketch();
-}

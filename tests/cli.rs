@@ -1,0 +1,260 @@
+//! The command line: help, environment variables, completions, and the explorer in lines of text.
+
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+
+/// A start of the program with nothing in its environment but a home.
+fn rayscope(home: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_rayscope"));
+    command
+        .args(arguments)
+        .env_clear()
+        .env("HOME", home)
+        .env("LANG", "C.UTF-8")
+        .current_dir(home)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+    command
+}
+
+fn output(mut command: Command, input: &str) -> Output {
+    let mut child = command.spawn().expect("the program");
+    let mut stdin = child.stdin.take().expect("its input");
+    // Where it ends before it has read all, nobody needs the rest.
+    let _ = stdin.write_all(input.as_bytes());
+    drop(stdin);
+    child.wait_with_output().expect("its output")
+}
+
+/// What a script of commands is answered.
+struct Script {
+    home: tempfile::TempDir,
+    said: String,
+    complained: String,
+    status: Option<i32>,
+}
+
+fn script(arguments: &[&str], lines: &str) -> Script {
+    let home = tempfile::tempdir().expect("a home");
+    let command = rayscope(home.path(), &[arguments, &["--plain"]].concat());
+    let output = output(command, lines);
+    Script {
+        home,
+        said: String::from_utf8(output.stdout).expect("text"),
+        complained: String::from_utf8(output.stderr).expect("text"),
+        status: output.status.code(),
+    }
+}
+
+impl Script {
+    fn says(&self, text: &str) {
+        assert!(self.said.contains(text), "no “{text}” in\n{}", self.said);
+    }
+}
+
+#[test]
+fn help_names_every_command_flag_and_variable() {
+    let home = tempfile::tempdir().unwrap();
+    let help = output(rayscope(home.path(), &["--help"]), "");
+    insta::assert_snapshot!("help", String::from_utf8(help.stdout).unwrap());
+}
+
+#[test]
+fn a_variable_stands_for_its_flag_and_gives_way_to_it() {
+    let home = tempfile::tempdir().unwrap();
+    let said = |variable: (&str, &str), arguments: &[&str]| {
+        let mut command = rayscope(home.path(), arguments);
+        command.env(variable.0, variable.1);
+        String::from_utf8(output(command, "").stdout).unwrap()
+    };
+    let method = ["print", "seed", "--pixel", "20,20"];
+    assert!(said(("RAYSCOPE_METHOD", "kahan"), &method).contains("method kahan"));
+    assert!(said(("RAYSCOPE_METHOD", ""), &method).contains("method exact"));
+    let both = [&method[..], &["--method", "haines"]].concat();
+    assert!(said(("RAYSCOPE_METHOD", "kahan"), &both).contains("method haines"));
+    let picture = ["print", "seed"];
+    assert!(said(("RAYSCOPE_STYLE", "seed"), &picture).contains("--++"));
+    let colored = said(
+        ("RAYSCOPE_COLOR", "256"),
+        &["print", "trio", "--style", "half"],
+    );
+    assert!(colored.contains("\x1b[38;5;"));
+}
+
+#[test]
+fn a_bad_value_of_a_variable_gets_a_sentence_that_names_it() {
+    let home = tempfile::tempdir().unwrap();
+    for (name, value) in [
+        ("RAYSCOPE_THEME", "pink"),
+        ("RAYSCOPE_COLOR", "17"),
+        ("RAYSCOPE_STYLE", "oil"),
+        ("RAYSCOPE_METHOD", "guess"),
+    ] {
+        let mut command = rayscope(home.path(), &["--plain"]);
+        command.env(name, value);
+        let output = output(command, "");
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(said.starts_with(&format!("rayscope: {name} is “{value}”: expected one of ")));
+        assert_eq!(said.lines().count(), 1, "{said}");
+        assert_eq!(output.status.code(), Some(2));
+    }
+    let mut command = rayscope(home.path(), &["--theme", "pink"]);
+    command.env("RAYSCOPE_THEME", "pink");
+    let said = String::from_utf8(output(command, "").stderr).unwrap();
+    assert!(
+        said.contains("--theme <THEME>"),
+        "the flag is at fault: {said}"
+    );
+}
+
+#[test]
+fn every_shell_gets_its_completions() {
+    let home = tempfile::tempdir().unwrap();
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let output = output(rayscope(home.path(), &["completions", shell]), "");
+        let script = String::from_utf8(output.stdout).unwrap();
+        // The last two do not complete values.
+        let values: &[_] = match shell {
+            "bash" | "zsh" | "fish" => &["high-contrast", "textbook"],
+            _ => &[],
+        };
+        for word in ["theme", "batch"].iter().chain(values) {
+            assert!(script.contains(word), "{shell}: no {word}");
+        }
+        assert!(output.status.success());
+    }
+}
+
+#[test]
+fn a_script_explores_and_is_told_what_changed() {
+    let script = script(
+        &["seed", "--method", "textbook"],
+        "# the pixel three to the right\ncursor-right 3\n\nnext-method\nshow quadratic\nquit\nnever read\n",
+    );
+    script.says("A 1; B −40; C 300; Δ 400; near 10; far 30");
+    script.says("\npixel (23, 20); C 309; Δ 364; near 10.4606; far 29.5394;");
+    script.says("\nmethod citardauq");
+    script.says("C    |p0−c|² − r²   309");
+    assert!(!script.said.contains("never"));
+    assert!(!script.said.contains("\n> "), "a prompt in a pipe");
+    assert_eq!((script.status, script.complained.as_str()), (Some(0), ""));
+}
+
+#[test]
+fn every_panel_has_its_text_form() {
+    let panels: Vec<_> = rayscope::explorer::Panel::ALL
+        .map(rayscope::explorer::Panel::name)
+        .into();
+    for scene in ["seed", "trio"] {
+        let others = ["view", "numbers"];
+        let lines = panels
+            .iter()
+            .chain(&others)
+            .map(|name| format!("show {name}\n"));
+        let script = script(&[scene], &lines.collect::<String>());
+        for text in [
+            "ray of pixel (",
+            "step 1 of",
+            "slice through",
+            "f(t) = At² + Bt + C",
+            "bits of",
+        ] {
+            script.says(text);
+        }
+        script.says("view of 40×");
+        script.says("\nradius 1");
+        assert!(!script.said.contains('\x1b'));
+        assert_eq!(script.status, Some(0));
+    }
+}
+
+#[test]
+fn a_line_that_can_not_be_done_gets_a_sentence_and_the_rest_goes_on() {
+    let bad = [
+        "nonsense",
+        "cursor 400 0",
+        "cursor-right 0",
+        "cursor-right many",
+        "set radius -1",
+        "show nothing",
+        "open",
+        "save",
+        "suspend",
+        "help nonsense",
+        "\u{fffd}",
+    ];
+    for line in bad {
+        let script = script(&["seed"], &format!("{line}\ncursor 1 2\n"));
+        script.says("pixel (1, 2)");
+        assert_eq!(script.status, Some(1), "{line}: {}", script.said);
+    }
+    let long = "x".repeat(100_000);
+    let script = script(&["seed"], &format!("{long}\ncursor 1 2"));
+    script.says("longer than 65536 bytes");
+    script.says("pixel (1, 2)");
+    assert_eq!(script.status, Some(1));
+}
+
+#[test]
+fn unsaved_work_of_a_script_is_kept_and_saved_work_is_not() {
+    let script_of = |lines: &str| script(&["seed"], lines);
+    let kept = |script: &Script| {
+        let folder = script.home.path().join(".local/state/rayscope");
+        fs::read_dir(folder).map_or(0, Iterator::count)
+    };
+    for leave in ["", "quit\n"] {
+        let left = script_of(&format!("move-x-plus\n{leave}"));
+        assert_eq!((kept(&left), left.status), (1, Some(0)));
+        assert!(left.complained.contains("unsaved work is kept in"));
+        assert!(!left.said.contains("Unsaved changes"), "nobody is asked");
+    }
+    let saved = script_of("move-x-plus\nsave-as mine.toml\nquit\n");
+    assert_eq!((kept(&saved), saved.status), (0, Some(0)));
+    assert!(saved.home.path().join("mine.toml").exists());
+    let given_up = script_of("move-x-plus\nquit!\n");
+    assert_eq!((kept(&given_up), given_up.status), (0, Some(0)));
+}
+
+#[test]
+fn a_question_is_answered_by_the_next_line_or_put_off() {
+    let name = "mine.toml";
+    let script = script(
+        &["seed"],
+        "save-as mine.toml\nmove-x-plus\nsave-as ./mine.toml\no\nmove-x-plus\nopen trio\ncursor 1 1\n",
+    );
+    script.says("exists already.  o overwrite");
+    script.says("Unsaved changes.  o open trio");
+    script.says("pixel (1, 1)");
+    let text = fs::read_to_string(script.home.path().join(name)).unwrap();
+    assert!(text.contains("center = [21, 20, 20]"), "{text}");
+}
+
+#[test]
+fn the_tour_is_read_page_by_page() {
+    let home = tempfile::tempdir().unwrap();
+    let command = rayscope(home.path(), &["tour", "--plain"]);
+    let output = output(command, "tour-forward\ntour-forward\n");
+    let said = String::from_utf8(output.stdout).unwrap();
+    for page in ["page 1/", "page 2/", "page 3/"] {
+        assert!(said.contains(page), "{said}");
+    }
+}
+
+#[test]
+fn a_locale_without_utf_8_gets_ascii_and_no_control_characters() {
+    let home = tempfile::tempdir().unwrap();
+    let mut command = rayscope(home.path(), &["trio", "--plain"]);
+    command.env("LANG", "C");
+    let lines = "show view\nshow slice\nshow steps\nhelp\n";
+    let output = output(command, lines);
+    assert!(output.stdout.is_ascii());
+    let odd = output
+        .stdout
+        .iter()
+        .find(|b| b.is_ascii_control() && **b != b'\n');
+    assert_eq!(odd, None);
+    assert_eq!(output.status.code(), Some(0));
+}
