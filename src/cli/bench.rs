@@ -9,8 +9,8 @@ use super::plan::buffer_of;
 use super::progress::{INTERRUPTED, Progress};
 use super::{INVALID, choice, complain, save, write_out};
 use crate::lab::bench::{self, MOST_TIMED, Plan, Report, Sample};
-use crate::lab::timing::{Schedule, SystemClock};
-use crate::lab::{Family, Machine, frames, plot};
+use crate::lab::timing::{Schedule, SelfCheck, SystemClock};
+use crate::lab::{Alone, Family, Machine, frames, plot};
 use crate::method::Method;
 use crate::render::{CELL_ASPECT, ColorDepth, Image, Style, fit};
 use crate::scene::{Rays, Scene};
@@ -41,7 +41,7 @@ pub(super) struct Bench {
     scene: Option<String>,
 
     /// Instead of single rays, whole frames: with the plan and without, from one sphere to a million
-    #[arg(long, conflicts_with_all = ["family", "scene", "rays", "plot", "worst", "strict"])]
+    #[arg(long, conflicts_with_all = ["family", "scene", "rays", "plot", "brief", "strict"])]
     frames: bool,
 
     /// With --frames: only these numbers of spheres, separated by commas
@@ -60,9 +60,9 @@ pub(super) struct Bench {
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
 
-    /// Text: also the inputs of the largest errors, in hexadecimal floats
+    /// Text: leave out the inputs of the largest errors
     #[arg(long)]
-    worst: bool,
+    brief: bool,
 
     /// Exit with status 1 if a self-check of the timing fails
     #[arg(long)]
@@ -102,13 +102,22 @@ pub(super) fn run(arguments: &Bench) -> ExitCode {
             return ExitCode::from(INVALID);
         }
     };
-    let report = bench::run(
+    // Where that can't be found out, the other self-checks have to do.
+    let alone = Alone::take();
+    let mut report = bench::run(
         plan(arguments),
         &samples,
         arguments.seed,
         &SystemClock::new(),
         |number, name| progress.go_on(number, name),
     );
+    report.self_checks.extend(
+        alone
+            .as_ref()
+            .ok()
+            .map(|alone| SelfCheck::alone(alone.is_some())),
+    );
+    drop(alone);
     progress.clear();
     let drawn = save(arguments.plot.as_deref(), || {
         plot::work_precision(&report, &Machine::detect())
@@ -146,6 +155,8 @@ fn run_frames(arguments: &Bench) -> ExitCode {
             return ExitCode::from(INVALID);
         }
     };
+    // No explorer of this host should time its picture meanwhile.
+    let _alone = Alone::take();
     let report = frames::run(
         &schedule,
         &SystemClock::new(),
@@ -221,9 +232,9 @@ fn samples(arguments: &Bench) -> Result<Vec<Sample>, String> {
 fn in_format(report: &Report, arguments: &Bench) -> Result<String, String> {
     let machine = Machine::detect();
     match arguments.format {
-        Format::Text => Ok(bench::table(report, &machine, arguments.worst)),
+        Format::Text => Ok(bench::table(report, &machine, !arguments.brief)),
         Format::Markdown => Ok(bench::markdown(report, &machine)),
-        Format::Csv => bench::csv(report).map_err(|e| format!("CSV: {e}")),
+        Format::Csv => bench::csv(report, &machine).map_err(|e| format!("CSV: {e}")),
         Format::Json => bench::json(report, &machine).map_err(|e| format!("JSON: {e}")),
     }
 }

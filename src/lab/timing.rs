@@ -1,5 +1,5 @@
-//! What a solve costs: throughput over arrays and latency in a dependent chain, with checks that
-//! tell whether the clock and the loop measure what they should.
+//! What a solve costs: one call after the other, all in arrays, and in a dependent chain, with checks
+//! that tell whether the clock and the loop measure what they should.
 
 use std::hint::black_box;
 use std::time::Instant;
@@ -8,8 +8,10 @@ use serde::Serialize;
 
 use super::Problem;
 use super::errors::nearest_rank;
+use super::hexadecimal::numbers;
 use super::random::Random;
 use crate::geometry::{Ray, Sphere};
+use crate::method::batch::{Batch, Solutions};
 use crate::method::{Method, Solution};
 
 /// Where times come from; a test brings a clock of its own.
@@ -46,6 +48,9 @@ pub trait Routine {
     /// Answers each problem, independently of the others.
     fn solve_all(&self, problems: &[Problem], answers: &mut [Solution]);
 
+    /// Answers all problems, which lie in arrays, at once.
+    fn solve_arrays(&self, arrays: &Arrays, answers: &mut Solutions);
+
     /// Answers each problem once the answer before it is known; the bits of the last answer.
     fn solve_chain(&self, problems: &[Problem]) -> u32;
 }
@@ -55,6 +60,20 @@ impl<F: Fn(&Ray, &Sphere) -> Solution> Routine for F {
     fn solve_all(&self, problems: &[Problem], answers: &mut [Solution]) {
         for ((ray, sphere), answer) in problems.iter().zip(answers) {
             *answer = self(ray, sphere);
+        }
+    }
+
+    fn solve_arrays(&self, arrays: &Arrays, answers: &mut Solutions) {
+        let batch = arrays.batch();
+        answers.class.clear();
+        answers.near.clear();
+        answers.far.clear();
+        for i in 0..batch.count() {
+            let (ray, sphere) = batch.get(i);
+            let answer = self(&ray, &sphere);
+            answers.class.push(answer.class);
+            answers.near.push(answer.near);
+            answers.far.push(answer.far);
         }
     }
 
@@ -73,16 +92,66 @@ impl<F: Fn(&Ray, &Sphere) -> Solution> Routine for F {
     }
 }
 
+/// A method: its single call, and what it makes of arrays.
+struct Of<F> {
+    method: Method,
+    single: F,
+}
+
+impl<F: Fn(&Ray, &Sphere) -> Solution> Routine for Of<F> {
+    fn solve_all(&self, problems: &[Problem], answers: &mut [Solution]) {
+        self.single.solve_all(problems, answers);
+    }
+
+    fn solve_arrays(&self, arrays: &Arrays, answers: &mut Solutions) {
+        arrays.batch().solve(self.method, answers);
+    }
+
+    fn solve_chain(&self, problems: &[Problem]) -> u32 {
+        self.single.solve_chain(problems)
+    }
+}
+
 /// The routine of a method.
 pub fn routine(method: Method) -> Box<dyn Routine> {
     macro_rules! of {
         ($($variant:ident),*) => {
             match method {
-                $(Method::$variant => Box::new(|r: &Ray, s: &Sphere| Method::$variant.solve(r, s)),)*
+                $(Method::$variant => Box::new(Of {
+                    method,
+                    single: |r: &Ray, s: &Sphere| Method::$variant.solve(r, s),
+                }),)*
             }
         };
     }
     of!(Textbook, Citardauq, Haines, Kahan, Double, Exact)
+}
+
+/// The coordinates of vectors, lane by lane.
+type Lanes<'a> = [&'a [f32]; 3];
+
+/// Problems in arrays, one for each of the ten numbers, in the order of the columns ox … r.
+#[derive(Debug, Clone)]
+pub struct Arrays([Vec<f32>; 10]);
+
+impl Arrays {
+    /// The arrays of these problems.
+    pub fn of(problems: &[Problem]) -> Self {
+        Self(std::array::from_fn(|i| {
+            problems.iter().map(|problem| numbers(problem)[i]).collect()
+        }))
+    }
+
+    /// The lanes of a batch.
+    pub fn batch(&self) -> Batch<Lanes<'_>, Lanes<'_>, Lanes<'_>, &[f32]> {
+        let [ox, oy, oz, dx, dy, dz, cx, cy, cz, r] = self.0.each_ref().map(Vec::as_slice);
+        Batch {
+            origin: [ox, oy, oz],
+            direction: [dx, dy, dz],
+            center: [cx, cy, cz],
+            radius: r,
+        }
+    }
 }
 
 /// A routine that does nothing but hand on what it was given: the price of the loops.
@@ -120,12 +189,16 @@ impl Nanoseconds {
 /// The times of one routine, and how they compare with the first routine's in the same rounds.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Times {
-    /// Independent rays, one after the other: time over number.
+    /// Independent rays, one call after the other: time over number.
     pub throughput: Nanoseconds,
+    /// Independent rays in arrays, answered at once: time over number.
+    pub batch: Nanoseconds,
     /// Each ray waits for the answer before it.
     pub latency: Nanoseconds,
     /// The median over the rounds of throughput time over that of the first routine.
     pub throughput_ratio: f64,
+    /// The same in arrays.
+    pub batch_ratio: f64,
     /// The same of latency.
     pub latency_ratio: f64,
 }
@@ -133,7 +206,7 @@ pub struct Times {
 /// How a run is timed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Schedule {
-    /// How often each routine goes over all rays, once for throughput and once for latency.
+    /// How often each routine goes over all rays in each of the three ways.
     pub rounds: usize,
     /// What the order of the routines in each round is drawn from.
     pub seed: u64,
@@ -153,14 +226,18 @@ pub fn time(
     let mut stand = Stand::new(problems, clock);
     let mut order: Vec<usize> = (0..routines.len()).collect();
     let mut random = Random::new(schedule.seed);
-    let mut taken = vec![[Vec::new(), Vec::new()]; routines.len()];
+    let mut taken = vec![[const { Vec::new() }; 3]; routines.len()];
     for round in 0..WARM_UP + schedule.rounds {
         if !go_on() {
             return None;
         }
         shuffle(&mut order, &mut random);
         for &i in &order {
-            let times = [stand.throughput(routines[i], 1), stand.latency(routines[i])];
+            let times = [
+                stand.throughput(routines[i], 1),
+                stand.batch(routines[i]),
+                stand.latency(routines[i]),
+            ];
             if round >= WARM_UP {
                 for (taken, time) in taken[i].iter_mut().zip(times) {
                     taken.push(time);
@@ -181,16 +258,21 @@ fn shuffle(order: &mut [usize], random: &mut Random) {
     }
 }
 
-fn summarise(taken: &[[Vec<f64>; 2]]) -> Vec<Times> {
-    taken
-        .iter()
-        .map(|[throughput, latency]| Times {
-            throughput: Nanoseconds::of(throughput.clone()),
-            latency: Nanoseconds::of(latency.clone()),
-            throughput_ratio: median_ratio(throughput, &taken[0][0]),
-            latency_ratio: median_ratio(latency, &taken[0][1]),
-        })
-        .collect()
+fn summarise(taken: &[[Vec<f64>; 3]]) -> Vec<Times> {
+    let first = &taken[0];
+    let times = taken.iter().map(|taken| {
+        let [throughput, batch, latency] = taken.clone().map(Nanoseconds::of);
+        let ratio = |way: usize| median_ratio(&taken[way], &first[way]);
+        Times {
+            throughput,
+            batch,
+            latency,
+            throughput_ratio: ratio(0),
+            batch_ratio: ratio(1),
+            latency_ratio: ratio(2),
+        }
+    });
+    times.collect()
 }
 
 fn median_ratio(times: &[f64], first: &[f64]) -> f64 {
@@ -202,7 +284,9 @@ fn median_ratio(times: &[f64], first: &[f64]) -> f64 {
 /// The rays, room for the answers, and the clock.
 struct Stand<'a> {
     problems: &'a [Problem],
+    arrays: Arrays,
     answers: Vec<Solution>,
+    answers_in_arrays: Solutions,
     clock: &'a dyn Clock,
 }
 
@@ -210,7 +294,9 @@ impl<'a> Stand<'a> {
     fn new(problems: &'a [Problem], clock: &'a dyn Clock) -> Self {
         Self {
             problems,
+            arrays: Arrays::of(problems),
             answers: vec![Solution::MISS; problems.len()],
+            answers_in_arrays: Solutions::default(),
             clock,
         }
     }
@@ -222,6 +308,13 @@ impl<'a> Stand<'a> {
             routine.solve_all(black_box(self.problems), &mut self.answers);
             black_box(&mut self.answers);
         }
+        self.per_ray(start)
+    }
+
+    fn batch(&mut self, routine: &dyn Routine) -> f64 {
+        let start = self.clock.now();
+        routine.solve_arrays(black_box(&self.arrays), &mut self.answers_in_arrays);
+        black_box(&mut self.answers_in_arrays);
         self.per_ray(start)
     }
 
@@ -262,6 +355,11 @@ impl SelfCheck {
             // A ratio of NaN, 0/0 from a clock that stands still, is in no range.
             passed: (least..=most).contains(&ratio),
         }
+    }
+
+    /// Whether nobody else on this host was measuring.
+    pub fn alone(alone: bool) -> Self {
+        Self::new("alone on this host", f64::from(u8::from(alone)), [1.0, 1.0])
     }
 }
 
@@ -326,16 +424,20 @@ mod tests {
         }
     }
 
-    /// Takes so many nanoseconds a ray alone, and so many in a chain.
-    struct Worker(Workshop, [u64; 2]);
+    /// Takes so many nanoseconds a ray alone, in arrays, and in a chain.
+    struct Worker(Workshop, [u64; 3]);
 
     impl Routine for Worker {
         fn solve_all(&self, problems: &[Problem], _: &mut [Solution]) {
-            let Self(Workshop(now), [each, _]) = self;
+            let Self(Workshop(now), [each, ..]) = self;
             now.set(now.get() + each * problems.len() as u64);
         }
+        fn solve_arrays(&self, arrays: &Arrays, _: &mut Solutions) {
+            let Self(Workshop(now), [_, each, _]) = self;
+            now.set(now.get() + each * arrays.batch().count() as u64);
+        }
         fn solve_chain(&self, problems: &[Problem]) -> u32 {
-            let Self(Workshop(now), [_, each]) = self;
+            let Self(Workshop(now), [.., each]) = self;
             now.set(now.get() + each * problems.len() as u64);
             0
         }
@@ -371,17 +473,16 @@ mod tests {
     #[test]
     fn times_are_those_of_the_clock_and_ratios_those_to_the_first() {
         let clock = Workshop::default();
-        let slow = Worker(clock.clone(), [20, 60]);
-        let quick = Worker(clock.clone(), [5, 30]);
+        let slow = Worker(clock.clone(), [20, 8, 60]);
+        let quick = Worker(clock.clone(), [5, 2, 30]);
         let schedule = Schedule { rounds: 9, seed: 3 };
         let times = time(&[&slow, &quick], &problems(), schedule, &clock, || true).unwrap();
-        let of = |t: &Times| [t.throughput.median, t.throughput.min, t.latency.median];
-        assert_eq!(of(&times[0]), [20.0, 20.0, 60.0]);
-        assert_eq!(of(&times[1]), [5.0, 5.0, 30.0]);
-        assert_eq!(
-            [times[1].throughput_ratio, times[1].latency_ratio],
-            [0.25, 0.5]
-        );
+        let of = |t: &Times| [t.throughput, t.batch, t.latency].map(|ns| [ns.median, ns.min]);
+        assert_eq!(of(&times[0]), [[20.0; 2], [8.0; 2], [60.0; 2]]);
+        assert_eq!(of(&times[1]), [[5.0; 2], [2.0; 2], [30.0; 2]]);
+        let t = &times[1];
+        let ratios = [t.throughput_ratio, t.batch_ratio, t.latency_ratio];
+        assert_eq!(ratios, [0.25, 0.25, 0.5]);
         assert_eq!(times[1].throughput.iqr, 0.0);
     }
 
@@ -412,7 +513,7 @@ mod tests {
     fn a_good_clock_passes_the_checks() {
         // The empty loop costs this clock nothing.
         let clock = Workshop::default();
-        let worker = Worker(clock.clone(), [20, 60]);
+        let worker = Worker(clock.clone(), [20, 8, 60]);
         assert_eq!(
             passed(&self_checks(&worker, &problems(), 3, &clock)),
             [true; 4]
@@ -426,6 +527,26 @@ mod tests {
         assert_eq!(passed(&frozen), [false; 4]);
         let metronome = self_checks(&*textbook, &problems(), 3, &Metronome::default());
         assert_eq!(passed(&metronome), [false; 4]);
+    }
+
+    #[test]
+    fn the_arrays_hold_the_rays_of_the_list() {
+        let problems = problems();
+        let arrays = Arrays::of(&problems);
+        for method in Method::ALL {
+            let mut answers = Solutions::default();
+            routine(method).solve_arrays(&arrays, &mut answers);
+            let single = |r: &Ray, s: &Sphere| method.solve(r, s);
+            let mut again = Solutions::default();
+            single.solve_arrays(&arrays, &mut again);
+            for (i, (ray, sphere)) in problems.iter().enumerate() {
+                let answer = method.solve(ray, sphere);
+                for found in [answers.get(i), again.get(i)] {
+                    let bits = |s: Solution| (s.class, s.near.to_bits(), s.far.to_bits());
+                    assert_eq!(bits(found), bits(answer), "{method}");
+                }
+            }
+        }
     }
 
     #[test]

@@ -76,7 +76,7 @@ struct Column {
 }
 
 /// The most useful first.
-const COLUMNS: [Column; 6] = [
+const COLUMNS: [Column; 7] = [
     Column {
         heading: "p99 ulp",
         width: 8,
@@ -91,6 +91,11 @@ const COLUMNS: [Column; 6] = [
         heading: "ratio",
         width: 6,
         cell: |row| brief(row.times.throughput_ratio),
+    },
+    Column {
+        heading: "arrays",
+        width: 7,
+        cell: |row| brief(row.times.batch.median),
     },
     Column {
         heading: "latency",

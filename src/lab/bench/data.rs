@@ -43,8 +43,10 @@ struct Entry<'a> {
     ulp: Percentiles,
     worst: Option<Largest>,
     ns: Nanoseconds,
+    batch_ns: Nanoseconds,
     latency_ns: Nanoseconds,
     ratio: f64,
+    batch_ratio: f64,
     latency_ratio: f64,
     pareto: bool,
     settled_by: Option<Map<String, Value>>,
@@ -84,8 +86,10 @@ impl<'a> Entry<'a> {
             ulp: row.errors.ulp,
             worst: row.errors.worst.as_ref().map(Largest::of),
             ns: row.times.throughput,
+            batch_ns: row.times.batch,
             latency_ns: row.times.latency,
             ratio: row.times.throughput_ratio,
+            batch_ratio: row.times.batch_ratio,
             latency_ratio: row.times.latency_ratio,
             pareto: row.pareto,
             settled_by,
@@ -121,7 +125,7 @@ pub fn json(report: &Report, machine: &Machine) -> serde_json::Result<String> {
 }
 
 /// The columns of the CSV, one row for each set and method.
-const COLUMNS: [&str; 31] = [
+const COLUMNS: [&str; 38] = [
     "family",
     "method",
     "rays",
@@ -144,6 +148,10 @@ const COLUMNS: [&str; 31] = [
     "ns_min",
     "ns_iqr",
     "ratio",
+    "batch_ns_median",
+    "batch_ns_min",
+    "batch_ns_iqr",
+    "batch_ratio",
     "latency_ns_median",
     "latency_ns_min",
     "latency_ns_iqr",
@@ -153,16 +161,19 @@ const COLUMNS: [&str; 31] = [
     "seed",
     "checksum",
     "times_trusted",
+    "cpu",
+    "compiler",
+    "flags",
 ];
 
 /// The report as CSV with a header; the ten numbers of the worst input stand in one column with
 /// blanks between them, p0, d, c, r.
-pub fn csv(report: &Report) -> Result<String, csv::Error> {
+pub fn csv(report: &Report, machine: &Machine) -> Result<String, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(COLUMNS)?;
     for chapter in &report.chapters {
         for row in &chapter.rows {
-            writer.write_record(record(report, chapter, row))?;
+            writer.write_record(record(report, machine, chapter, row))?;
         }
     }
     let bytes = writer
@@ -171,7 +182,12 @@ pub fn csv(report: &Report) -> Result<String, csv::Error> {
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
-fn record(report: &Report, chapter: &Chapter, row: &Row) -> [String; COLUMNS.len()] {
+fn record(
+    report: &Report,
+    machine: &Machine,
+    chapter: &Chapter,
+    row: &Row,
+) -> [String; COLUMNS.len()] {
     let Census {
         rays,
         miss,
@@ -216,6 +232,10 @@ fn record(report: &Report, chapter: &Chapter, row: &Row) -> [String; COLUMNS.len
         times.throughput.min.to_string(),
         times.throughput.iqr.to_string(),
         times.throughput_ratio.to_string(),
+        times.batch.median.to_string(),
+        times.batch.min.to_string(),
+        times.batch.iqr.to_string(),
+        times.batch_ratio.to_string(),
         times.latency.median.to_string(),
         times.latency.min.to_string(),
         times.latency.iqr.to_string(),
@@ -225,6 +245,9 @@ fn record(report: &Report, chapter: &Chapter, row: &Row) -> [String; COLUMNS.len
         report.seed.to_string(),
         report.checksum().to_string(),
         report.times_trusted().to_string(),
+        machine.cpu.clone(),
+        machine.compiler.clone(),
+        machine.flags.clone(),
     ]
 }
 

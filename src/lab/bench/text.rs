@@ -6,7 +6,7 @@ use super::{Chapter, Report, Row};
 use crate::lab::errors::{Census, Errors, Fault, Worst};
 use crate::lab::hexadecimal::{hexadecimal, numbers};
 use crate::lab::machine::Machine;
-use crate::lab::timing::Nanoseconds;
+use crate::lab::timing::{Nanoseconds, Times};
 use crate::method::exact::Stage;
 
 /// A number with about three digits: enough to compare, short enough for a column.
@@ -114,20 +114,35 @@ fn percentiles(errors: &Errors) -> [f64; 4] {
     [ulp.p50, ulp.p99, ulp.p999, ulp.max]
 }
 
+/// The three ways in which a row was timed, with the ratio to `textbook`.
+fn ways(times: &Times) -> [(Nanoseconds, f64); 3] {
+    [
+        (times.throughput, times.throughput_ratio),
+        (times.batch, times.batch_ratio),
+        (times.latency, times.latency_ratio),
+    ]
+}
+
 fn times(chapter: &Chapter) -> String {
-    let mut out = String::from(
-        "             ns for one solve, many at once     ns, each waits for the last\n  \
-         method    median     min     iqr   ratio  median     min     iqr   ratio\n",
-    );
+    let titles = ["one by one", "in arrays", "each waits for the last"];
+    let mut out = format!("  {:9}", "ns for");
+    for title in titles {
+        let _ = write!(out, "{title:>23}");
+    }
+    let _ = write!(out, "\n  {:9}", "a solve");
+    for _ in titles {
+        let _ = write!(out, "{:>6}{:>6}{:>6}{:>5}", "med.", "min", "iqr", "×tb");
+    }
+    out.push('\n');
     for row in &chapter.rows {
         let _ = write!(out, "  {:9}", row.method);
-        let times = &row.times;
-        for (ns, ratio) in [
-            (times.throughput, times.throughput_ratio),
-            (times.latency, times.latency_ratio),
-        ] {
-            let Nanoseconds { median, min, iqr } = ns;
-            let _ = write!(out, "{median:>8.1}{min:>8.1}{iqr:>8.1}{ratio:>8.2}");
+        for (Nanoseconds { median, min, iqr }, ratio) in ways(&row.times) {
+            let [median, min, iqr] = [median, min, iqr].map(brief);
+            let ratio = match brief(ratio) {
+                long if long.len() > 4 => format!("{ratio:.0}"),
+                ratio => ratio,
+            };
+            let _ = write!(out, "{median:>6}{min:>6}{iqr:>6}{ratio:>5}");
         }
         out.push('\n');
     }
@@ -161,13 +176,13 @@ pub(crate) fn percent(part: usize, all: usize) -> String {
 fn largest(method: &str, worst: &Worst) -> String {
     let error = worst.error;
     let [ox, oy, oz, dx, dy, dz, cx, cy, cz, r] = numbers(&worst.problem).map(hexadecimal);
-    format!(
-        "  {method}: {} ulp, {} for {}\n    p0 {ox} {oy} {oz}\n    d  {dx} {dy} {dz}\n    \
-         c  {cx} {cy} {cz}\n    r  {r}\n",
+    wrapped(&format!(
+        "  {method}: largest {} ulp, {} for {} at p0 {ox} {oy} {oz} d {dx} {dy} {dz} \
+         c {cx} {cy} {cz} r {r}",
         brief(error.ulps),
         hexadecimal(error.answer),
         hexadecimal(error.exact),
-    )
+    ))
 }
 
 fn footer(report: &Report) -> String {
@@ -176,7 +191,7 @@ fn footer(report: &Report) -> String {
         out += "Interrupted: what is above is complete, the rest was not measured.\n";
     }
     out += "* Pareto: none is as good in wrong answers, p99 and time, and better in one\n";
-    out += "ratio: to textbook in the same rounds, the median over the rounds\n";
+    out += "×tb: times textbook in the same rounds, the median over the rounds\n";
     for check in &report.self_checks {
         let said = if check.passed { "passed" } else { "FAILED" };
         let _ = writeln!(
@@ -212,13 +227,16 @@ pub(crate) fn wrapped(text: &str) -> String {
     out + "\n"
 }
 
-/// The report in Markdown: two overviews; for each set a table of errors, which are the same
+/// The report in Markdown: overviews of errors and times; for each set a table of errors, which are the same
 /// everywhere, and one of times, which are not.
 pub fn markdown(report: &Report, machine: &Machine) -> String {
     let mut out = format!("```text\n{}```\n\n", header(report, machine));
     out += &error_overview(report);
     out.push('\n');
-    out += &time_overview(report);
+    out += "One by one:\n\n";
+    out += &time_overview(report, |times| ways(times)[0]);
+    out += "\nIn arrays:\n\n";
+    out += &time_overview(report, |times| ways(times)[1]);
     for chapter in &report.chapters {
         let _ = write!(out, "\n### {}\n\n{}\n\n", chapter.name, chapter.about);
         out += &error_table(chapter);
@@ -271,14 +289,11 @@ pub fn error_overview(report: &Report) -> String {
     })
 }
 
-/// The median time of one solve among many, in ns, and how many times that of `textbook` it is.
-fn time_overview(report: &Report) -> String {
+/// The median time of one solve in ns, and how many times that of `textbook` it is.
+fn time_overview(report: &Report, way: fn(&Times) -> (Nanoseconds, f64)) -> String {
     overview(report, |_, row| {
-        let times = &row.times;
-        format!(
-            "{:.0} ({:.2})",
-            times.throughput.median, times.throughput_ratio
-        )
+        let (ns, ratio) = way(&row.times);
+        format!("{} ({ratio:.2})", brief(ns.median))
     })
 }
 
@@ -307,17 +322,14 @@ pub fn error_table(chapter: &Chapter) -> String {
 
 fn time_table(chapter: &Chapter) -> String {
     let mut out = String::from(
-        "| method | throughput ns | min | iqr | × textbook | latency ns | min | iqr | × textbook | \
-         Pareto |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|---|\n",
+        "| method | ns one by one | min | iqr | × textbook | ns in arrays | min | iqr | × textbook | \
+         latency ns | min | iqr | × textbook | Pareto |\n|---|",
     );
+    out += &"--:|".repeat(12);
+    out += "---|\n";
     for row in &chapter.rows {
-        let times = &row.times;
         let _ = write!(out, "| `{}` |", row.method);
-        for (ns, ratio) in [
-            (times.throughput, times.throughput_ratio),
-            (times.latency, times.latency_ratio),
-        ] {
-            let Nanoseconds { median, min, iqr } = ns;
+        for (Nanoseconds { median, min, iqr }, ratio) in ways(&row.times) {
             let _ = write!(out, " {median:.1} | {min:.1} | {iqr:.1} | {ratio:.2} |");
         }
         let _ = writeln!(out, " {} |", if row.pareto { "yes" } else { "" });

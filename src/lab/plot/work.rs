@@ -7,7 +7,7 @@ use crate::lab::bench::{Chapter, Report, Row};
 use crate::lab::machine::Machine;
 
 const COLUMNS: usize = 3;
-const PANEL: [f64; 2] = [320.0, 170.0];
+const PANEL: [f64; 2] = [320.0, 210.0];
 /// Room around a panel: left and right together, above and below together.
 const GAP: [f64; 2] = [72.0, 52.0];
 const LEFT: f64 = 58.0;
@@ -130,52 +130,148 @@ fn error(row: &Row) -> f64 {
     row.errors.ulp.p99.max(1e-3).log2()
 }
 
-/// Through the methods that no other dominates, by their error.
-fn pareto_line(svg: &mut Svg, panel: &Panel, chapter: &Chapter) {
-    let mut best: Vec<[f64; 2]> = chapter
-        .rows
-        .iter()
-        .filter(|row| row.pareto && row.errors.judged > 0)
-        .map(|row| point(panel, row))
-        .collect();
+/// The methods that no other dominates, by their error.
+fn pareto_points(panel: &Panel, chapter: &Chapter) -> Vec<[f64; 2]> {
+    let rows = chapter.rows.iter();
+    let best = rows.filter(|row| row.pareto && row.errors.judged > 0);
+    let mut best: Vec<[f64; 2]> = best.map(|row| point(panel, row)).collect();
     best.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    best
+}
+
+fn pareto_line(svg: &mut Svg, panel: &Panel, chapter: &Chapter) {
+    let best = pareto_points(panel, chapter);
     if best.len() > 1 {
         svg.polyline(&best, Stroke::solid("#d0d0d0", 5.0));
     }
 }
 
-/// The rate of wrong answers beside each point, higher where another label is in the way.
+/// The rate of wrong answers beside each point, where it covers neither a point nor a line nor
+/// another label; a thin line leads to one that is not right beside its point.
 fn labels(svg: &mut Svg, panel: &Panel, chapter: &Chapter) {
     let rays = chapter.census.rays;
+    let mut taken: Vec<Area> = chapter
+        .rows
+        .iter()
+        .map(|r| around(point(panel, r)))
+        .collect();
+    for pair in pareto_points(panel, chapter).windows(2) {
+        taken.extend(along(pair[0], pair[1]));
+    }
     let mut rows: Vec<&Row> = chapter.rows.iter().collect();
     rows.sort_by(|a, b| log_time(a).total_cmp(&log_time(b)));
-    let mut placed: Vec<[f64; 2]> = Vec::new();
     for row in rows {
-        let [x, y] = point(panel, row);
-        let right_half = x > panel.at[0] + 0.72 * PANEL[0];
-        let (left, anchor) = if right_half {
-            (x - 9.0 - LABEL[0], Anchor::End)
-        } else {
-            (x + 9.0, Anchor::Start)
-        };
-        let mut at = [left, y];
-        while placed.iter().any(|other| overlap(*other, at)) {
-            at[1] -= 1.0;
-        }
-        placed.push(at);
         let wrong = match row.errors.wrong.total() {
             0 => "0 wrong".to_owned(),
             wrong => format!("{} wrong", percent(wrong, rays)),
         };
+        let at = point(panel, row);
+        let area = free_area(panel, at, 5.6 * wrong.chars().count() as f64, &taken);
+        taken.push(area);
+        let Area { left, top, .. } = area;
         let (color, _) = look(row.method);
-        let edge = if right_half { left + LABEL[0] } else { left };
-        svg.label([edge, at[1] + 3.5], &wrong, color, anchor);
+        let to_the_right = left > at[0];
+        let edge = if to_the_right {
+            left
+        } else {
+            left + area.width
+        };
+        let middle = top + area.height / 2.0;
+        if (middle - at[1]).abs() > area.height || (edge - at[0]).abs() > 2.0 * BESIDE {
+            let towards = if to_the_right { -1.0 } else { 1.0 };
+            svg.line(at, [edge + towards, middle], Stroke::solid(color, 0.8));
+        }
+        let anchor = if to_the_right {
+            Anchor::Start
+        } else {
+            Anchor::End
+        };
+        svg.label([edge, middle + 3.5], &wrong, text_color(row.method), anchor);
     }
 }
 
-/// Width and height of a label.
-const LABEL: [f64; 2] = [68.0, 11.0];
+/// A rectangle that is taken.
+#[derive(Debug, Clone, Copy)]
+struct Area {
+    left: f64,
+    top: f64,
+    width: f64,
+    height: f64,
+}
 
-fn overlap(one: [f64; 2], other: [f64; 2]) -> bool {
-    (one[0] - other[0]).abs() < LABEL[0] && (one[1] - other[1]).abs() < LABEL[1]
+impl Area {
+    fn overlaps(&self, other: &Self) -> bool {
+        let apart = |a: f64, size_a: f64, b: f64, size_b: f64| a + size_a <= b || b + size_b <= a;
+        !apart(self.left, self.width, other.left, other.width)
+            && !apart(self.top, self.height, other.top, other.height)
+    }
+}
+
+/// Height of a label, and how far it stands from its point.
+const LABEL_HEIGHT: f64 = 11.0;
+const BESIDE: f64 = 8.0;
+
+/// What a marker covers.
+fn around([x, y]: [f64; 2]) -> Area {
+    let size = 9.0;
+    Area {
+        left: x - size / 2.0,
+        top: y - size / 2.0,
+        width: size,
+        height: size,
+    }
+}
+
+/// What a line covers, in small pieces.
+fn along(from: [f64; 2], to: [f64; 2]) -> impl Iterator<Item = Area> {
+    let length = (to[0] - from[0]).hypot(to[1] - from[1]);
+    let pieces = (length / 4.0).ceil().max(1.0);
+    (0..=pieces as u32).map(move |i| {
+        let part = f64::from(i) / pieces;
+        Area {
+            left: from[0] + part * (to[0] - from[0]) - 2.0,
+            top: from[1] + part * (to[1] - from[1]) - 2.0,
+            width: 4.0,
+            height: 4.0,
+        }
+    })
+}
+
+/// The free place for a label that is nearest to its point; beside it, if all are taken.
+fn free_area(panel: &Panel, [x, y]: [f64; 2], width: f64, taken: &[Area]) -> Area {
+    let [x0, y0] = panel.at;
+    let place = |dx: f64, dy: f64| Area {
+        left: if dx > 0.0 { x + dx } else { x + dx - width },
+        top: y + dy - LABEL_HEIGHT / 2.0,
+        width,
+        height: LABEL_HEIGHT,
+    };
+    let inside = |a: &Area| {
+        a.left >= x0 + 2.0
+            && a.left + a.width <= x0 + PANEL[0] + 30.0
+            && a.top >= y0
+            && a.top + a.height <= y0 + PANEL[1]
+    };
+    let far = (0..12).map(|i| BESIDE + 8.0 * f64::from(i));
+    let places = far.flat_map(|dx| {
+        let up_and_down = (0..120).flat_map(|i| [-f64::from(i), f64::from(i)]);
+        up_and_down.flat_map(move |dy| [(dx, dy), (-dx, dy)])
+    });
+    let free = places
+        .map(|(dx, dy)| (dx.abs() + dy.abs(), place(dx, dy)))
+        .filter(|(_, a)| inside(a) && !taken.iter().any(|other| a.overlaps(other)))
+        .min_by(|(one, _), (other, _)| one.total_cmp(other));
+    free.map_or_else(|| place(BESIDE, 0.0), |(_, area)| area)
+}
+
+/// The colour of a method, dark enough for small letters on white.
+fn text_color(method: &str) -> &'static str {
+    match method {
+        "textbook" => "#b34e00",
+        "citardauq" => "#946600",
+        "haines" => "#007d5b",
+        "kahan" => "#a3507d",
+        "double" => "#005f94",
+        _ => "#000000",
+    }
 }
