@@ -197,7 +197,7 @@ fn a_killed_connection_ends_it_and_loses_nothing() {
     pty.waits_to_show("Unsaved work of");
     pty.sends("o");
     pty.waits_to_show("c    21, 20, 20");
-    pty.sends("qq");
+    pty.sends("qD");
     assert_eq!(pty.ends(), 0);
     pty.is_restored();
 }
