@@ -141,6 +141,16 @@ fn what_is_no_such_file_is_refused_in_a_sentence() {
 }
 
 #[test]
+fn a_file_without_rows_has_nothing_to_grade() {
+    let header = "ox,oy,oz,dx,dy,dz,cx,cy,cz,r,class,near,far\n";
+    let output = rayscope(&["grade", "-"], header);
+    assert_eq!(output.status.code(), Some(1));
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.contains("no row after the header"), "{said}");
+    assert!(output.stdout.is_empty());
+}
+
+#[test]
 fn the_table_shows_the_given_answers_first_and_the_worst_input_as_a_command() {
     let rows = format!("{HEADER}hit,11,30,{SECANT}miss,,,{TANGENT}");
     let output = rayscope(&["grade", "-"], &rows);

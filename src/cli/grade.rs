@@ -109,6 +109,9 @@ fn read(path: &Path) -> Result<Rows, String> {
             Err(reason) => rows.refused.push(format!("line {line}, {reason}")),
         }
     }
+    if rows.problems.is_empty() && rows.refused.is_empty() {
+        return Err("no row after the header; expected at least one to grade".into());
+    }
     Ok(rows)
 }
 

@@ -185,9 +185,10 @@ fn subject_lines(subject: &Subject, spheres: usize, width: usize, digits: Digits
     if let Some(name) = &subject.name {
         title = format!("{title}, {name}");
     }
-    let why = subject.why.words();
-    let room = width.saturating_sub(why.len() + 1);
-    let title = clip(&title, room.max(12));
+    // The reason gives way to the name: the lines below say where the sphere is met.
+    let has_room = |why: &&str| title.chars().count() + 1 + why.len() <= width;
+    let why = Some(subject.why.words()).filter(has_room).unwrap_or("");
+    let title = clip(&title, width.saturating_sub(why.len()));
     let radius = number(subject.sphere.radius.into(), Precision::Binary32, digits);
     let room = width.saturating_sub(LABEL_WIDTH + RADIUS_LABEL.len() + radius.chars().count());
     vec![

@@ -12,7 +12,7 @@ use super::layout::{self, LEAST};
 use super::mode::{Form, Mode, Prompt};
 use super::theme::Theme;
 use super::{Explorer, Options};
-use crate::explain::{self, Digits, Glyphs, Line, number};
+use crate::explain::{self, Digits, Glyphs, Line, Role, Span, number};
 use crate::lab::CaseForm;
 use crate::method::{Place, Precision};
 use crate::render::Style;
@@ -94,21 +94,39 @@ impl Pen<'_> {
     /// Lines with roles, from the top of `area`.
     pub(super) fn lines(&mut self, area: Rect, lines: &[Line]) {
         for (y, line) in (area.top()..area.bottom()).zip(lines) {
+            let mut spelt = self.spelt(line, false);
+            let width: usize = spelt.iter().map(|(text, _)| text.width()).sum();
+            if width > usize::from(area.width) {
+                spelt = self.spelt(line, true);
+            }
             let mut x = area.x;
-            let mut longer = 0;
-            for span in &line.spans {
+            for (text, role) in spelt {
                 let room = area.right().saturating_sub(x);
-                let mut text = self.glyphs.spell(&span.text);
-                longer += text.chars().count() - span.text.chars().count();
-                // What is spelt longer takes its room from the gap behind it: columns stay columns.
-                if text.len() > 1 && text.bytes().all(|b| b == b' ') {
-                    let taken = longer.min(text.len() - 1);
-                    text.truncate(text.len() - taken);
-                    longer -= taken;
-                }
-                x = self.text(x, y, room, &text, self.theme.role(span.role));
+                x = self.text(x, y, room, &text, self.theme.role(role));
             }
         }
+    }
+
+    /// A line in the characters that there are; `tight` writes its formulas without blanks, so that
+    /// the numbers behind them are not cut.
+    fn spelt(&self, line: &Line, tight: bool) -> Vec<(String, Role)> {
+        let mut longer = 0;
+        let spell = |span: &Span| {
+            let mut text = self.glyphs.spell(&span.text);
+            if tight && span.role == Role::Formula {
+                text = text.replace("sqrt disc", "sqrt(disc)").replace(' ', "");
+            }
+            longer += text.chars().count();
+            longer = longer.saturating_sub(span.text.chars().count());
+            // What is spelt longer takes its room from the gap behind it: columns stay columns.
+            if text.len() > 1 && text.bytes().all(|b| b == b' ') {
+                let taken = longer.min(text.len() - 1);
+                text.truncate(text.len() - taken);
+                longer -= taken;
+            }
+            (text, span.role)
+        };
+        line.spans.iter().map(spell).collect()
     }
 }
 
