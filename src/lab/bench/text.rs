@@ -124,7 +124,7 @@ fn ways(times: &Times) -> [(Nanoseconds, f64); 3] {
 }
 
 fn times(chapter: &Chapter) -> String {
-    let titles = ["one by one", "in arrays", "each waits for the last"];
+    let titles = ["one by one", "in arrays", "waiting for the last"];
     let mut out = format!("  {:9}", "ns for");
     for title in titles {
         let _ = write!(out, "{title:>23}");
