@@ -173,24 +173,24 @@ impl Explorer {
         self.draw_title(pen, layout.title);
         self.draw_tour(pen, layout.tour);
         if let Mode::Help { scroll } = self.mode {
-            let body = layout.view.union(layout.panel).union(layout.strip);
+            let body = layout.body();
             self.draw_help(pen, body, scroll);
             return self.draw_footer(pen, layout.footer);
         }
         if let Mode::Case(form) = self.mode {
-            let body = layout.view.union(layout.panel).union(layout.strip);
+            let body = layout.body();
             draw_case(pen, body, form, &self.case_lines(form));
             return self.draw_footer(pen, layout.footer);
         }
         if self.board {
-            let body = layout.view.union(layout.panel).union(layout.strip);
+            let body = layout.body();
             self.draw_board(pen, body);
             return self.draw_footer(pen, layout.footer);
         }
         let cell = self.draw_view(pen, layout.view);
         let field = match &self.mode {
             Mode::Form(_) if layout.panel.is_empty() => {
-                let body = layout.view.union(layout.strip);
+                let body = layout.body();
                 self.draw_form(pen, body)
             }
             Mode::Form(_) => self.draw_form(pen, layout.panel),

@@ -43,6 +43,15 @@ pub struct Layout {
 }
 
 impl Layout {
+    /// All that picture, panel and strip have between them; what is not shown has no place, and does
+    /// not count.
+    pub fn body(&self) -> Rect {
+        let parts = [self.panel, self.strip].into_iter();
+        parts
+            .filter(|part| !part.is_empty())
+            .fold(self.view, Rect::union)
+    }
+
     /// The parts of a screen of `area` that shows a picture of `picture` columns and rows, or one
     /// that takes what room there is. None if the screen is too small.
     pub fn of(area: Rect, picture: Option<(u32, u32)>) -> Option<Self> {
