@@ -280,6 +280,42 @@ fn nothing_is_asked_while_nothing_changes_and_little_when_one_sphere_moves() {
     assert!(changed.kept <= drawn.kept);
 }
 
+/// While everything moves nothing is kept, nor remembered; once it rests, everything is again.
+#[test]
+fn a_scene_that_moved_as_a_whole_is_kept_when_it_rests() {
+    let mut crowd = frames::scene(5000, 3);
+    let size = Size::new(48, 32);
+    let all = size.area() as u64;
+    let rays = rays_of(&crowd, size);
+    let mut pair = Pair::new();
+    let check =
+        |pair: &mut Pair, scene: &Scene, view| pair.check(scene, &rays, Method::Exact, view).kept;
+    for _ in 0..4 {
+        assert_eq!(check(&mut pair, &crowd, View::Shade), 0);
+        for body in &mut crowd.bodies {
+            body.sphere.center.x += 0.01;
+        }
+    }
+    // The first frame at rest finds out, the second keeps.
+    assert_eq!(check(&mut pair, &crowd, View::Shade), 0);
+    assert_eq!(check(&mut pair, &crowd, View::Shade), 0);
+    assert_eq!(check(&mut pair, &crowd, View::Shade), all);
+    crowd.bodies[2500].sphere.center.x += 0.05;
+    let kept = check(&mut pair, &crowd, View::Shade);
+    assert!(0 < kept && kept <= all, "{kept}");
+    // Of another scene nothing is known, be it as long as the sample.
+    for body in &mut crowd.bodies {
+        body.sphere.center.x += 0.01;
+    }
+    for view in [View::Shade, View::Class] {
+        check(&mut pair, &crowd, view);
+    }
+    crowd.bodies.truncate(64);
+    check(&mut pair, &crowd, View::Shade);
+    crowd.bodies.truncate(63);
+    check(&mut pair, &crowd, View::Shade);
+}
+
 /// The cost grows with spheres and with what they cover, not with their product.
 #[test]
 fn tests_grow_with_what_is_covered() {

@@ -1,16 +1,15 @@
-//! Where a sphere can be seen: for each sphere a box of pixels and a lower bound of t, for many
-//! spheres at once.
+//! Where a sphere can be seen: a box of pixels, its columns in each row, and a lower bound of t.
 //!
 //! Of what lies before the eye only, and for a method whose class is right: the box holds every
-//! pixel whose ray, as rounded, meets the sphere at t > 0. Methods that may err are served by
-//! [`super::bounds`].
+//! pixel whose ray, as rounded, meets the sphere at t > 0. [`super::crowd`] does the same for many
+//! spheres at once. Methods that may err are served by [`super::bounds`].
 
 use glam::DVec3;
 
 use super::field::TILE;
-use super::lanes::{LANES, Lanes, Real, dot};
+use super::lanes::Real;
 use crate::geometry::Sphere;
-use crate::scene::{Body, Rays, Size};
+use crate::scene::{Rays, Size};
 
 /// A sphere is widened by this share of its distance and radius before it is projected.
 ///
@@ -21,9 +20,6 @@ const RAY_ERROR: f64 = 1.0 / (1 << 20) as f64;
 /// How far from a pixel a bound may lie and still count as on it: more than the rounding of a
 /// coordinate that is not beyond every picture.
 const NEARLY: f64 = 1.0 / 1024.0;
-
-/// Spheres that are bounded together.
-pub(super) const BLOCK: usize = 64;
 
 /// Pixels from `left` to `right` and from `top` to `bottom`, all inclusive; none if a first one is
 /// beyond its last.
@@ -104,15 +100,6 @@ impl Bounds {
         }
     }
 
-    /// The least rectangle of whole runs of `n` pixels that holds this one.
-    pub(super) const fn in_runs_of(self, n: i16) -> Self {
-        Self {
-            left: self.left / n * n,
-            right: self.right / n * n + n - 1,
-            ..self
-        }
-    }
-
     /// With the pixels beside it, as far as the picture goes.
     pub(super) fn widened(self, size: Size) -> Self {
         if self.is_empty() {
@@ -144,187 +131,15 @@ impl Bounds {
     }
 }
 
-/// What is known of the spheres of one block.
-#[derive(Debug, Clone)]
-pub(super) struct Block {
-    center: [[f32; BLOCK]; 3],
-    radius: [f32; BLOCK],
-    left: [i32; BLOCK],
-    right: [i32; BLOCK],
-    top: [i32; BLOCK],
-    bottom: [i32; BLOCK],
-    /// No visible root is below this.
-    least: [f32; BLOCK],
-    behind: [bool; BLOCK],
-    /// p0 − c (perspective), rounded.
-    origin: [[f32; BLOCK]; 3],
-    /// (p0 − c)² − r² (perspective) and r², rounded.
-    c: [f32; BLOCK],
-    r2: [f32; BLOCK],
-    /// See [`Single`].
-    doubt: [f32; BLOCK],
-    accept: [f32; BLOCK],
-}
-
-impl Default for Block {
-    fn default() -> Self {
-        const ZEROS: [f32; BLOCK] = [0.0; BLOCK];
-        Self {
-            center: [ZEROS; 3],
-            radius: ZEROS,
-            left: [0; BLOCK],
-            right: [0; BLOCK],
-            top: [0; BLOCK],
-            bottom: [0; BLOCK],
-            least: ZEROS,
-            behind: [false; BLOCK],
-            origin: [ZEROS; 3],
-            c: ZEROS,
-            r2: ZEROS,
-            doubt: ZEROS,
-            accept: ZEROS,
-        }
-    }
-}
-
-/// What the certified test in binary32 needs of a sphere; the tests are in [`super::nearest`].
+/// Where a sphere can be seen.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Single {
-    /// o = p0 − c where all rays start at p0, else c.
-    pub origin: [f32; 3],
-    /// C = o² − r² where all rays start at one point.
-    pub c: f32,
-    /// r².
-    pub r2: f32,
-    /// The computed D = A r² − ‖o × d‖² is off by less than A times this.
-    pub doubt: f32,
-    /// Above A times this it is so large that its root is good for telling depths apart.
-    pub accept: f32,
-}
-
-/// The test in binary32 serves spheres whose radius is at least this share of their distance.
-const LEAST_SHARE: f64 = 1.0 / (1 << 17) as f64;
-
-/// D = A r² − ‖o × d‖² in binary32 is off by less than 2⁻¹⁹ A r(|o| + r), where |o × d| ≤ 2√A r.
-///
-/// With u = 2⁻²⁴: o, each product and each difference are off by u, so each component of o × d by 3u
-/// of the sum of its products' sizes, and the vector by 3√2 u‖d‖|o| < 4.3u√A|o|. Its square, at most
-/// 4A r², is off by 8.6u·2A r|o| + 18.5u²A o² + 12u A r², A r² by 3u A r², their difference by another
-/// 4u A r². With u|o| < 2⁻⁷ r the sum is below u A r(17.4|o| + 19 r), and 2⁻¹⁹ = 32u.
-///
-/// A line that passes farther away, |o × d| = k > 2√A r, is off by less than
-/// k²(8.6u√A|o|/k + 18.5u²A o²/k² + 8u) < 0.04k², while −D > 0.75k²: a miss beyond all doubt.
-const SINGLE_ERROR: f64 = 1.0 / (1 << 19) as f64;
-
-/// A root with this relative error still tells depths apart: half of [`super::nearest::SAME`], less
-/// what the operations after the square root add.
-const ROOT_ERROR: f64 = 1.0 / (1 << 14) as f64;
-
-/// Between these no product of the test in binary32 leaves its normal range.
-const LEAST_REACH: f64 = 1.0 / GREATEST_REACH;
-const GREATEST_REACH: f64 = (1 << 20) as f64;
-
-impl Block {
-    /// Takes in at most [`BLOCK`] spheres.
-    #[inline(always)]
-    fn load(&mut self, bodies: &[Body]) {
-        for (i, body) in bodies.iter().enumerate() {
-            self.put(i, &body.sphere);
-        }
-    }
-
-    #[inline(always)]
-    fn put(&mut self, i: usize, sphere: &Sphere) {
-        self.center[0][i] = sphere.center.x;
-        self.center[1][i] = sphere.center.y;
-        self.center[2][i] = sphere.center.z;
-        self.radius[i] = sphere.radius;
-    }
-
-    /// The pixels that sphere `i` of the block can cover; none if it lies behind the eye.
-    pub(super) const fn bounds(&self, i: usize) -> Bounds {
-        if self.behind[i] {
-            return Bounds::NONE;
-        }
-        // No picture is larger than `Size::LARGEST`.
-        Bounds {
-            left: self.left[i] as i16,
-            right: self.right[i] as i16,
-            top: self.top[i] as i16,
-            bottom: self.bottom[i] as i16,
-        }
-    }
-
-    /// A lower bound of the visible roots of sphere `i` of the block.
-    pub(super) const fn least(&self, i: usize) -> f32 {
-        self.least[i]
-    }
-
-    /// What the test in binary32 needs of sphere `i` of the block, if it serves it.
-    #[inline(always)]
-    pub(super) fn single(&self, i: usize, perspective: bool) -> Option<Single> {
-        let accept = self.accept[i];
-        let origin = if perspective {
-            &self.origin
-        } else {
-            &self.center
-        };
-        (!accept.is_nan()).then(|| Single {
-            origin: [origin[0][i], origin[1][i], origin[2][i]],
-            c: self.c[i],
-            r2: self.r2[i],
-            doubt: self.doubt[i],
-            accept,
-        })
-    }
-
-    /// Makes ready for the test in binary32; where it does not serve, `accept` is not a number.
-    ///
-    /// A root C/(|b| + √D) with D > kA·`doubt` is off by ½√(`doubt`/kC) of itself, plus 4u|o|/√C for b
-    /// and a few u. Where C ≥ o²/4 that is below 2⁻¹⁴ + 12u if k·`doubt` ≥ 2²⁶`doubt`²/C. A root
-    /// (|b| − √D)/A of parallel rays is no less than `least`, which takes the place of √C; |o| is then at
-    /// most 64 times that, which makes 4u|o| no more than 2⁻¹⁶ of it.
-    #[inline(always)]
-    fn prepare_singles<const PERSPECTIVE: bool>(
-        &mut self,
-        i: usize,
-        o: [Lanes; 3],
-        reach: Lanes,
-        radius: Lanes,
-        least: Lanes,
-    ) {
-        let o2 = dot(o, o);
-        let r2 = radius * radius;
-        let c = o2 - r2;
-        let (nearest2, served) = if PERSPECTIVE {
-            (c, c - Lanes::of(0.25) * o2)
-        } else {
-            (least * least, Lanes::of(64.0) * least - reach)
-        };
-        let doubt = Lanes::of(SINGLE_ERROR) * radius * reach;
-        let for_class = doubt + doubt;
-        let for_root = doubt * doubt / (Lanes::of(4.0 * ROOT_ERROR * ROOT_ERROR) * nearest2);
-        let accept = for_root.where_negative(for_class - for_root, for_class);
-        let not = Lanes::of(f64::NAN);
-        let accept = not.where_negative(served, accept);
-        let accept = not.where_negative(radius - Lanes::of(LEAST_SHARE) * reach, accept);
-        let accept = not.where_negative(reach - Lanes::of(LEAST_REACH), accept);
-        let accept = not.where_negative(Lanes::of(GREATEST_REACH) - reach, accept);
-        for l in 0..LANES {
-            self.origin[0][i + l] = -o[0].0[l] as f32;
-            self.origin[1][i + l] = -o[1].0[l] as f32;
-            self.origin[2][i + l] = -o[2].0[l] as f32;
-            self.c[i + l] = c.0[l] as f32;
-            self.r2[i + l] = r2.0[l] as f32;
-            self.doubt[i + l] = doubt.0[l] as f32;
-            self.accept[i + l] = accept.0[l] as f32;
-        }
-    }
-
-    /// Whether sphere `i` of the block lies behind the eye.
-    pub(super) const fn is_behind(&self, i: usize) -> bool {
-        self.behind[i]
-    }
+pub(super) struct Cover {
+    /// The pixels that it can cover; none if it lies behind the eye.
+    pub bounds: Bounds,
+    /// No visible root is below this.
+    pub least: f32,
+    /// Whether it lies behind the eye.
+    pub behind: bool,
 }
 
 /// What projecting needs of a camera: unit axes, and the pixel step along each.
@@ -338,11 +153,11 @@ pub(super) struct Projector {
     /// The pixel, in fractions, of the middle of the picture.
     middle: [f64; 2],
     last: [f64; 2],
-    pub(super) perspective: bool,
+    perspective: bool,
     /// How far off a ray may start.
-    origin_error: f64,
+    pub(super) origin_error: f64,
     /// How far from `origin` it starts at most, those beyond the right edge included.
-    spread: f64,
+    pub(super) spread: f64,
 }
 
 impl Projector {
@@ -371,112 +186,74 @@ impl Projector {
         }
     }
 
-    /// Bounds at most [`BLOCK`] spheres.
-    #[inline(always)]
-    pub(super) fn bound(&self, bodies: &[Body], block: &mut Block) {
-        block.load(bodies);
-        for i in (0..bodies.len()).step_by(LANES) {
-            if self.perspective {
-                self.bound_lanes::<true>(block, i);
-            } else {
-                self.bound_lanes::<false>(block, i);
-            }
+    /// Where one sphere can be seen.
+    pub(super) fn cover(&self, sphere: &Sphere) -> Cover {
+        let center = sphere.center.as_dvec3();
+        let o = center - self.origin;
+        let radius = f64::from(sphere.radius);
+        let [a, b, z] = self.axes.map(|axis| axis.dot(o));
+        let widened = self.widened(o, radius);
+        let behind = z + widened <= 0.0;
+        let least = ((z - widened) * (1.0 - 2.0 * RAY_ERROR)).at_least(0.0);
+        let [left, right] = self.pixels(self.span(a, z, widened), 0);
+        let [top, bottom] = self.pixels(self.span(b, z, widened), 1);
+        let bounds = Bounds {
+            left,
+            right,
+            top,
+            bottom,
+        };
+        Cover {
+            // What is not a number is not behind.
+            bounds: if behind { Bounds::NONE } else { bounds },
+            least: least as f32,
+            behind,
         }
     }
 
-    /// Bounds one sphere, as the first of a block.
-    pub(super) fn bound_one(&self, sphere: &Sphere, block: &mut Block) {
-        block.put(0, sphere);
-        if self.perspective {
-            self.bound_lanes::<true>(block, 0);
-        } else {
-            self.bound_lanes::<false>(block, 0);
-        }
+    /// The radius, and more than what the rays are off by where they pass.
+    fn widened(&self, o: DVec3, radius: f64) -> f64 {
+        // At least |o| + r.
+        let reach = o.abs().element_sum() + radius + self.spread;
+        radius + RAY_ERROR * reach + self.origin_error
     }
 
     /// The columns that one sphere can cover in each row.
     pub(super) fn spans(&self, sphere: &Sphere) -> Spans {
         let o = sphere.center.as_dvec3() - self.origin;
-        let radius = f64::from(sphere.radius);
-        let reach = o.abs().element_sum() + radius + self.spread;
-        let widened = radius + RAY_ERROR * reach + self.origin_error;
+        let widened = self.widened(o, sphere.radius.into());
         let center = self.axes.map(|axis| o.dot(axis));
         Spans::new(center, widened, self.perspective).in_pixels(self.scale, self.middle)
     }
 
-    #[inline(always)]
-    fn bound_lanes<const PERSPECTIVE: bool>(&self, block: &mut Block, i: usize) {
-        let [x, y, z] = &block.center;
-        let o = [
-            Lanes::load(x, i) - Lanes::of(self.origin.x),
-            Lanes::load(y, i) - Lanes::of(self.origin.y),
-            Lanes::load(z, i) - Lanes::of(self.origin.z),
-        ];
-        let radius = Lanes::load(&block.radius, i);
-        let [right, down, forward] = self.axes;
-        let [a, b, z] = [along(right, o), along(down, o), along(forward, o)];
-        // At least |o| + r.
-        let reach = o[0].abs() + o[1].abs() + o[2].abs() + radius + Lanes::of(self.spread);
-        let widened = radius + Lanes::of(RAY_ERROR) * reach + Lanes::of(self.origin_error);
-
-        let across = span::<PERSPECTIVE>(a, z, widened);
-        let down = span::<PERSPECTIVE>(b, z, widened);
-        let last_depth = z + widened;
-        let least = ((z - widened) * Lanes::of(1.0 - 2.0 * RAY_ERROR)).at_least(0.0);
-        let [left, right] = self.pixels(across, 0);
-        let [top, bottom] = self.pixels(down, 1);
-        block.prepare_singles::<PERSPECTIVE>(i, o, reach, radius, least);
-        for l in 0..LANES {
-            block.left[i + l] = left[l];
-            block.right[i + l] = right[l];
-            block.top[i + l] = top[l];
-            block.bottom[i + l] = bottom[l];
-            block.least[i + l] = least.0[l] as f32;
-            // What is not a number is not behind.
-            block.behind[i + l] = last_depth.0[l] <= 0.0;
+    /// What a circle of this radius about the point `a` to the side and `z` ahead covers, as seen from
+    /// the origin: slopes (perspective) or lengths.
+    fn span(&self, a: f64, z: f64, radius: f64) -> [f64; 2] {
+        if !self.perspective {
+            return [a - radius, a + radius];
         }
+        // The tangents from the origin, l long, have the directions (a l ∓ z r, z l ± a r). One that
+        // points backwards leaves that side open; without tangents l is not a number.
+        let l = (a * a + z * z - radius * radius).sqrt();
+        let [al, zl, ar, zr] = [a * l, z * l, a * radius, z * radius];
+        let [low_ahead, high_ahead] = [zl + ar, zl - ar];
+        [
+            f64::NEG_INFINITY.where_negative(low_ahead, (al - zr) / low_ahead),
+            f64::INFINITY.where_negative(high_ahead, (al + zr) / high_ahead),
+        ]
     }
 
     /// The first and the last pixel between two coordinates, clipped to the picture. A coordinate
     /// that is not a number ends nowhere.
-    #[inline(always)]
-    fn pixels(&self, [low, high]: [Lanes; 2], axis: usize) -> [[i32; LANES]; 2] {
-        let scale = Lanes::of(self.scale[axis]);
-        let middle = Lanes::of(self.middle[axis]);
-        let rounds_up = Lanes::of(0.5 - NEARLY);
-        let first = (low * scale + middle + rounds_up)
-            .at_least(0.0)
-            .at_most(self.last[axis] + 1.0);
-        let last = (high * scale + middle - rounds_up)
-            .at_most(self.last[axis])
-            .at_least(-1.0);
-        [first.nearest(), last.nearest()]
+    fn pixels(&self, [low, high]: [f64; 2], axis: usize) -> [i16; 2] {
+        let [scale, middle, last] = [self.scale, self.middle, self.last].map(|of| of[axis]);
+        let first_one = (low * scale + middle - NEARLY).ceil();
+        let last_one = (high * scale + middle + NEARLY).floor();
+        [
+            first_one.at_least(0.0).at_most(last + 1.0) as i16,
+            last_one.at_most(last).at_least(-1.0) as i16,
+        ]
     }
-}
-
-/// How far vectors reach along a unit axis.
-#[inline(always)]
-fn along(axis: DVec3, o: [Lanes; 3]) -> Lanes {
-    Lanes::of(axis.x) * o[0] + Lanes::of(axis.y) * o[1] + Lanes::of(axis.z) * o[2]
-}
-
-/// What a circle of this radius about the point `a` to the side and `z` ahead covers, as seen from
-/// the origin: slopes (perspective) or lengths.
-#[inline(always)]
-fn span<const PERSPECTIVE: bool>(a: Lanes, z: Lanes, radius: Lanes) -> [Lanes; 2] {
-    if !PERSPECTIVE {
-        return [a - radius, a + radius];
-    }
-    // The tangents from the origin, l long, have the directions (a l ∓ z r, z l ± a r). One that
-    // points backwards leaves that side open; without tangents l is not a number.
-    let l = (a * a + z * z - radius * radius).sqrt();
-    let [al, zl, ar, zr] = [a * l, z * l, a * radius, z * radius];
-    let [low_ahead, high_ahead] = [zl + ar, zl - ar];
-    let infinite = Lanes::of(f64::INFINITY);
-    [
-        (-infinite).where_negative(low_ahead, (al - zr) / low_ahead),
-        infinite.where_negative(high_ahead, (al + zr) / high_ahead),
-    ]
 }
 
 /// Which columns a sphere covers in a row of pixels: the row's own quadratic, since along a row the
@@ -541,7 +318,7 @@ impl Spans {
 
     /// The first and the last column of those of `bounds` that can be covered in row `y`; the first
     /// is beyond the last where there is none.
-    #[inline]
+    #[inline(always)]
     pub(super) fn at(&self, y: i16, bounds: Bounds) -> [i16; 2] {
         let whole = [bounds.left, bounds.right];
         if !self.sound {
@@ -563,6 +340,7 @@ impl Spans {
     }
 
     /// Where D(s) = 0 in the row at `v`.
+    #[inline(always)]
     fn ends(&self, v: f64) -> Option<[f64; 2]> {
         let [a, b, z] = self.center;
         if !self.perspective {
@@ -576,17 +354,7 @@ impl Spans {
         // Of the two halves of the cone the row cuts the one before the eye only if g is above zero.
         let half = (rho2 * (a * a + self.m)).sqrt();
         let is_met = rho2 >= 0.0 && (g > 0.0 || !self.before_the_eye);
-        is_met.then(|| [(a * g - half) / self.m, (a * g + half) / self.m])
-    }
-}
-
-impl Lanes {
-    /// The nearest integers of numbers within ±2³¹.
-    #[inline(always)]
-    fn nearest(self) -> [i32; LANES] {
-        // Adding 1.5·2⁵² leaves the integer in the low bits: a conversion that any processor has
-        // for many lanes at once.
-        const SHIFT: f64 = 6_755_399_441_055_744.0;
-        std::array::from_fn(|l| (self.0[l] + SHIFT).to_bits() as i32)
+        let scale = 1.0 / self.m;
+        is_met.then_some([(a * g - half) * scale, (a * g + half) * scale])
     }
 }

@@ -4,7 +4,7 @@
 use super::cover::Bounds;
 use super::field::Field;
 use super::lanes::{LANES, Lanes, Real, sub};
-use super::layer::{ASK, Contact, Layer, NOBODY, number};
+use super::layer::{ASK, Contact, INSIDE, Layer, NOBODY, number};
 use super::plan::Counts;
 use super::shade::{Hit, Spot};
 use crate::geometry::Sphere;
@@ -68,11 +68,9 @@ impl Shading<'_> {
         self.counts.shaded += u64::from(visible);
         let lanes = spot(self.field, self.bodies, entries, place).brightness(position);
         for l in 0..LANES {
-            value[l] = if entries[l] == NOBODY {
-                0.0
-            } else {
-                lanes.0[l] as f32
-            };
+            // All bits or none: a branch would split the lanes.
+            let seen = u32::from(entries[l] != NOBODY).wrapping_neg();
+            value[l] = f32::from_bits((lanes.0[l] as f32).to_bits() & seen);
         }
         // The lanes take every root for the near one; without a light that does not matter.
         if self.light.is_some() {
@@ -104,13 +102,15 @@ impl Shading<'_> {
 /// The rays of a run of pixels and the spheres that they hit; any sphere where they hit none.
 #[inline(always)]
 fn spot(field: &Field, bodies: &[Body], entries: &[u32], place: usize) -> Spot<Lanes> {
+    let last = bodies.len() - 1;
     let mut spheres = [[0.0; LANES]; 4];
     for l in 0..LANES {
-        let sphere = number(entries[l])
-            .and_then(|number| bodies.get(number as usize))
-            .map_or(NONE, |body| body.sphere);
-        let [x, y, z] = sphere.center.to_array();
-        for (lanes, v) in spheres.iter_mut().zip([x, y, z, sphere.radius]) {
+        let number = (entries[l] & !(ASK | INSIDE)) as usize;
+        let Sphere { center, radius } = bodies[number.min(last)].sphere;
+        for (lanes, v) in spheres
+            .iter_mut()
+            .zip([center.x, center.y, center.z, radius])
+        {
             lanes[l] = v.into();
         }
     }
@@ -131,8 +131,3 @@ fn spot(field: &Field, bodies: &[Body], entries: &[u32], place: usize) -> Spot<L
         inside: false,
     }
 }
-
-const NONE: Sphere = Sphere {
-    center: glam::Vec3::ZERO,
-    radius: 1.0,
-};

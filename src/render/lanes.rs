@@ -1,4 +1,4 @@
-//! Several numbers side by side, so that one formula runs for several pixels or spheres at once.
+//! Several numbers side by side, so that one formula runs for several pixels at once.
 //!
 //! An operation is a loop over a small array, which compilers turn into vector instructions. Each
 //! lane is rounded as a single number would be, so a formula gives the same bits either way.
@@ -24,8 +24,6 @@ pub(super) trait Real:
     fn of(value: f64) -> Self;
     /// The square root, rounded once.
     fn sqrt(self) -> Self;
-    /// The magnitude.
-    fn abs(self) -> Self;
     /// The number if it is at least `least`, else `least`, as for what is not a number.
     fn at_least(self, least: f64) -> Self;
     /// The number if it is at most `most`, else `most`, as for what is not a number.
@@ -44,10 +42,6 @@ macro_rules! number {
             #[inline(always)]
             fn sqrt(self) -> Self {
                 self.sqrt()
-            }
-            #[inline(always)]
-            fn abs(self) -> Self {
-                self.abs()
             }
             #[inline(always)]
             fn at_least(self, least: f64) -> Self {
@@ -109,10 +103,6 @@ impl Real for Lanes {
     #[inline(always)]
     fn sqrt(self) -> Self {
         Self::each(|l| self.0[l].sqrt())
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Self::each(|l| self.0[l].abs())
     }
     #[inline(always)]
     fn at_least(self, least: f64) -> Self {

@@ -11,6 +11,7 @@
 mod bounds;
 mod color;
 mod cover;
+mod crowd;
 mod field;
 mod finish;
 mod frame;
@@ -22,6 +23,7 @@ mod nearest;
 mod plan;
 mod ramp;
 mod shade;
+mod single;
 mod style;
 mod view;
 

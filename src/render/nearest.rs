@@ -8,11 +8,12 @@
 
 use std::array::from_fn;
 
-use super::cover::{Bounds, Single, Spans};
+use super::cover::{Bounds, Spans};
 use super::field::{Field, TILE};
 use super::lanes::{LANES, Lanes, Real, SINGLES, cross, dot, sub};
 use super::layer::{ASK, Contact, Layer, number, refill};
 use super::plan::Counts;
+use super::single::Single;
 use crate::geometry::Sphere;
 use crate::method::exact;
 use crate::scene::Body;
@@ -206,40 +207,57 @@ impl Nearest {
 
     /// Whether everything seen within `bounds` is nearer than `least`.
     #[inline(always)]
-    pub(super) fn hides(&self, bounds: Bounds, least: f32) -> bool {
+    pub(super) fn hides(&self, field: &Field, bounds: Bounds, least: f32) -> bool {
+        if !is_small(bounds) {
+            self.hides_tiles(bounds, least)
+        } else if bounds.right - bounds.left < SINGLES as i16 / 2 {
+            self.hides_runs::<{ SINGLES / 2 }>(field, bounds, least)
+        } else {
+            self.hides_runs::<SINGLES>(field, bounds, least)
+        }
+    }
+
+    /// The same of bounds that are at most `N` columns wide, pixel by pixel.
+    #[inline(always)]
+    fn hides_runs<const N: usize>(&self, field: &Field, bounds: Bounds, least: f32) -> bool {
+        let bar = bar(least);
+        let x = (bounds.left as usize).min(field.stride() - N);
+        let mut open = [0; N];
+        for y in bounds.top..=bounds.bottom {
+            let place = y as usize * field.stride() + x;
+            let seen = &self.layer.t[place..place + N];
+            for l in 0..N {
+                open[l] |= u32::from(seen[l] >= bar);
+            }
+        }
+        !any(&open)
+    }
+
+    /// The same by the bounds of the tiles.
+    fn hides_tiles(&self, bounds: Bounds, least: f32) -> bool {
         let [left, right] = [bounds.left as usize / TILE, bounds.right as usize / TILE];
         let [top, bottom] =
             [bounds.top, bounds.bottom].map(|y| y as usize / TILE * self.tiles.across);
-        let far = &self.tiles.far;
-        // Most spheres lie within the four tiles of their corners.
-        let corners = far[top + left]
-            .max(far[top + right])
-            .max(far[bottom + left].max(far[bottom + right]));
-        is_before(corners, least)
-            && (top..=bottom).step_by(self.tiles.across).all(|row| {
-                let mut tiles = far[row + left..=row + right].iter();
-                tiles.all(|&far| is_before(far, least))
-            })
+        (top..=bottom).step_by(self.tiles.across).all(|row| {
+            let mut tiles = self.tiles.far[row + left..=row + right].iter();
+            tiles.all(|&far| is_before(far, least))
+        })
     }
 
-    /// Asks about one sphere.
+    /// Asks about one sphere: of rays that start at one point or are parallel, as `question` has it, and
+    /// with roots if it has them.
     #[inline(always)]
-    pub(super) fn ask(&mut self, question: &Question, candidate: &Candidate, counts: &mut Counts) {
-        let perspective = question.field.perspective();
-        match (&candidate.single, perspective, question.roots) {
-            (Some(single), true, true) => {
-                self.ask_singles::<true, true>(question, candidate, single, counts);
+    pub(super) fn ask<const PERSPECTIVE: bool, const ROOTS: bool>(
+        &mut self,
+        question: &Question,
+        candidate: &Candidate,
+        counts: &mut Counts,
+    ) {
+        match &candidate.single {
+            Some(single) => {
+                self.ask_singles::<PERSPECTIVE, ROOTS>(question, candidate, single, counts);
             }
-            (Some(single), false, true) => {
-                self.ask_singles::<false, true>(question, candidate, single, counts);
-            }
-            (Some(single), true, false) => {
-                self.ask_singles::<true, false>(question, candidate, single, counts);
-            }
-            (Some(single), false, false) => {
-                self.ask_singles::<false, false>(question, candidate, single, counts);
-            }
-            (None, ..) => self.ask_beyond_singles(question, candidate, counts),
+            None => self.ask_beyond_singles(question, candidate, counts),
         }
     }
 
@@ -271,7 +289,7 @@ impl Nearest {
         }
     }
 
-    /// Tests the patches of pixels that may see the sphere.
+    /// Tests the runs of pixels that may see the sphere, each a patch of one row.
     #[inline(always)]
     fn test_runs<T: Test>(
         &mut self,
@@ -281,42 +299,52 @@ impl Nearest {
         counts: &mut Counts,
     ) {
         let stride = field.stride();
-        // Patches begin at the sphere's own left edge: a small one takes one patch a row. A patch that
-        // would leave the picture begins earlier: asking twice, or beyond an edge, changes nothing.
+        let bar = bar(candidate.least);
+        // Runs begin at the span's own left edge. One that would leave the picture begins earlier:
+        // asking twice, or beyond an edge, changes nothing.
         let latest = stride - T::COLUMNS;
-        let lowest = field.size().height as usize - T::ROWS;
-        for y in (candidate.bounds.top..=candidate.bounds.bottom).step_by(T::ROWS) {
+        for y in candidate.bounds.top..=candidate.bounds.bottom {
             let [left, right] = candidate.columns(y);
             if left > right {
                 continue;
             }
-            let rows = (candidate.bounds.bottom - y + 1).min(T::ROWS as i16);
-            counts.note_rows(rows, [left, right]);
-            let y = (y as usize).min(lowest);
-            let tiles = y / TILE * self.tiles.across;
-            let tiles_below = (y + T::ROWS - 1) / TILE * self.tiles.across;
+            counts.note_rows(1, [left, right]);
+            let (row, tiles) = (y as usize * stride, y as usize / TILE * self.tiles.across);
             for x in (left as usize..=right as usize).step_by(T::COLUMNS) {
                 let x = x.min(latest);
-                let [column, last] = [x / TILE, (x + T::COLUMNS - 1) / TILE];
-                let first = tiles + column;
-                let mut far = self.tiles.far[first].max(self.tiles.far[tiles + last]);
-                if T::ROWS > 1 {
-                    let below = &self.tiles.far;
-                    far = far.max(below[tiles_below + column].max(below[tiles_below + last]));
-                }
-                if is_before(far, candidate.least) {
-                    counts.hidden_runs += 1;
-                    continue;
-                }
-                let changed = test.run(self, y * stride + x, counts);
-                self.note_change(first, changed);
+                let changed = self.test(test, row + x, stride, bar, counts);
+                self.note_change(tiles + x / TILE, changed);
             }
         }
     }
 
-    /// Tests the one patch that may see the sphere, without a loop whose end cannot be foreseen.
+    /// Tests one patch, unless all that is seen there is nearer.
     #[inline(always)]
-    fn test_patch<T: Test>(
+    fn test<T: Test>(
+        &mut self,
+        test: &T,
+        place: usize,
+        stride: usize,
+        bar: f32,
+        counts: &mut Counts,
+    ) -> bool {
+        let mut open = 0;
+        for row in 0..T::ROWS {
+            let place = place + row * stride;
+            for &t in &self.layer.t[place..place + T::COLUMNS] {
+                open |= u32::from(t >= bar);
+            }
+        }
+        if open == 0 {
+            counts.hidden_runs += 1;
+            return false;
+        }
+        test.run(self, place, counts)
+    }
+
+    /// Tests the patches of a sphere that is no wider than one of them, and hidden by no tile.
+    #[inline(always)]
+    fn test_few<T: Test>(
         &mut self,
         test: &T,
         field: &Field,
@@ -330,10 +358,18 @@ impl Nearest {
             bottom,
         } = candidate.bounds;
         counts.note_rows(bottom - top + 1, [left, right]);
-        let x = (left as usize).min(field.stride() - T::COLUMNS);
-        let y = (top as usize).min(field.size().height as usize - T::ROWS);
-        let changed = test.run(self, field.place(x as u32, y as u32), counts);
-        self.note_change(y / TILE * self.tiles.across + x / TILE, changed);
+        let stride = field.stride();
+        let x = (left as usize).min(stride - T::COLUMNS);
+        let lowest = field.size().height as usize - T::ROWS;
+        let bar = bar(candidate.least);
+        let mut y = top as usize;
+        loop {
+            self.test(test, y.min(lowest) * stride + x, stride, bar, counts);
+            y += T::ROWS;
+            if y > bottom as usize {
+                break;
+            }
+        }
     }
 
     #[inline(always)]
@@ -358,19 +394,16 @@ impl Nearest {
             self.test_runs(&test, field, candidate, counts);
             return;
         }
-        let is_small = candidate.bounds.right - candidate.bounds.left < SINGLES as i16 / 2;
-        if PERSPECTIVE && is_small && field.size().height > 1 {
+        let columns = candidate.bounds.right - candidate.bounds.left;
+        let is_small = is_small(candidate.bounds);
+        if PERSPECTIVE && is_small && columns < SINGLES as i16 / 2 && field.size().height > 1 {
             let test = InSingles::<PERSPECTIVE, ROOTS, false, 2> {
                 question,
                 number,
                 single,
                 b: 0.0,
             };
-            if candidate.bounds.rows() <= 2 {
-                self.test_patch(&test, field, candidate, counts);
-            } else {
-                self.test_runs(&test, field, candidate, counts);
-            }
+            self.test_few(&test, field, candidate, counts);
         } else {
             let test = InSingles::<PERSPECTIVE, ROOTS, false, 1> {
                 question,
@@ -378,7 +411,11 @@ impl Nearest {
                 single,
                 b: 0.0,
             };
-            self.test_runs(&test, field, candidate, counts);
+            if is_small {
+                self.test_few(&test, field, candidate, counts);
+            } else {
+                self.test_runs(&test, field, candidate, counts);
+            }
         }
     }
 
@@ -541,8 +578,7 @@ impl<const PERSPECTIVE: bool, const ROOTS: bool, const CONSTANT_B: bool, const R
             body: patch::<_, ROWS>(&nearest.layer.body, place, stride),
         };
         let mut next = seen;
-        let mut open = [0; SINGLES];
-        let mut changed = [0; SINGLES];
+        let [mut open, mut changed] = [[0; SINGLES]; 2];
         // All of it in one loop, without a branch: then it is compiled to vectors.
         for l in 0..SINGLES {
             let varying = [x[l], y[l], z[l]];
@@ -754,6 +790,19 @@ fn any<const N: usize>(lanes: &[u32; N]) -> bool {
         any |= lane;
     }
     any != 0
+}
+
+/// Whether these are so few pixels that each is looked at, and not their tiles.
+#[inline(always)]
+const fn is_small(bounds: Bounds) -> bool {
+    let [columns, rows] = [bounds.right - bounds.left, bounds.bottom - bounds.top];
+    columns < SINGLES as i16 && rows < SINGLES as i16
+}
+
+/// Below this what is seen is nearer, beyond doubt, than what lies no nearer than `least`.
+#[inline(always)]
+fn bar(least: f32) -> f32 {
+    least * (1.0 - SAME)
 }
 
 /// Whether a root in the buffer is less than another one, or than a bound, beyond doubt.

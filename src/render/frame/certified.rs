@@ -2,27 +2,31 @@
 //! each pixel.
 
 use super::Frame;
-use super::memory::Memory;
 use crate::method::exact;
 use crate::method::simd::{self, Kernel};
 use crate::render::View;
 use crate::render::bounds::Eye;
-use crate::render::cover::{BLOCK, Block, Bounds, Projector};
+use crate::render::cover::{Bounds, Projector};
+use crate::render::crowd::{CROWD, Crowd, Lens};
 use crate::render::finish;
-use crate::render::lanes::SINGLES;
 use crate::render::layer::{Contact, NOBODY};
 use crate::render::nearest::{Candidate, Nearest, Question};
-use crate::render::plan::Counts;
+use crate::render::plan::{Counts, Way};
 use crate::scene::{Body, Rays, Scene};
 
 impl Frame {
     /// The whole picture.
     pub(super) fn start_certified(&mut self, scene: &Scene, rays: &Rays) {
         let eye = (self.plan.view() == View::Class).then(|| Eye::new(rays));
-        self.find_nearest(scene, rays, |memory, body, front| {
-            let line = eye.as_ref().map(|eye| eye.window(&body.sphere, 1.0));
-            memory.learn(body, front.union(line.unwrap_or(Bounds::NONE)));
-        });
+        self.find_nearest(scene, rays);
+        if let Some(eye) = &eye {
+            // What is not wholly ahead is seen behind the eye, too.
+            for (number, body) in scene.bodies.iter().enumerate() {
+                if eye.may_be_behind(&body.sphere) {
+                    self.memory.add(number, eye.window(&body.sphere, 1.0));
+                }
+            }
+        }
         self.value.clear();
         self.value.resize(self.field.places(), 0.0);
         let whole = Bounds::whole(rays.size);
@@ -32,11 +36,8 @@ impl Frame {
         }
     }
 
-    /// The pixels within `part`, and what shares a run with them.
+    /// The pixels within `part`.
     pub(super) fn redo_certified(&mut self, scene: &Scene, rays: &Rays, part: Bounds) {
-        let part = part
-            .in_runs_of(SINGLES as i16)
-            .within(Bounds::whole(rays.size));
         self.find_nearest_within(scene, rays, part);
         self.finish(scene, part);
         if self.plan.view() == View::Class {
@@ -44,31 +45,29 @@ impl Frame {
         }
     }
 
-    /// Asks for the nearest hits of the whole picture; `learn` is told where each sphere can be seen.
-    pub(super) fn find_nearest(
-        &mut self,
-        scene: &Scene,
-        rays: &Rays,
-        mut learn: impl FnMut(&mut Memory, &Body, Bounds),
-    ) {
+    /// Asks for the nearest hits of the whole picture.
+    pub(super) fn find_nearest(&mut self, scene: &Scene, rays: &Rays) {
         self.nearest.clear(&self.field);
         let projector = Projector::new(rays);
-        for (first, bodies) in (0..).step_by(BLOCK).zip(scene.bodies.chunks(BLOCK)) {
+        let lens = Lens::new(rays, &projector);
+        for (first, bodies) in (0..).step_by(CROWD).zip(scene.bodies.chunks(CROWD)) {
             simd::dispatch(Search {
                 projector: &projector,
+                lens: &lens,
                 question: Question {
                     field: &self.field,
                     bodies: &scene.bodies,
                     roots: self.plan.roots_tell_depths(),
                 },
-                first,
-                chunk: bodies,
-                block: &mut self.block,
+                members: Members::Run(first),
+                count: bodies.len(),
+                part: Bounds::whole(rays.size),
+                crowd: &mut self.crowd,
                 nearest: &mut self.nearest,
                 counts: &mut self.plan.counts,
             });
-            for (i, body) in bodies.iter().enumerate() {
-                learn(&mut self.memory, body, self.block.bounds(i));
+            if self.plan.way() == Way::Certified {
+                self.memory.learn(bodies, &self.crowd.bounds);
             }
         }
         self.nearest.trim(&self.field);
@@ -77,16 +76,17 @@ impl Frame {
     /// How many spheres can be seen, were it not for others.
     pub(super) fn bound_certified(&mut self, scene: &Scene, rays: &Rays) -> usize {
         let projector = Projector::new(rays);
+        let lens = Lens::new(rays, &projector);
         let mut seen = 0;
-        for chunk in scene.bodies.chunks(BLOCK) {
-            let block = &mut self.block;
-            simd::dispatch(Bounding {
+        for spheres in scene.bodies.chunks(CROWD) {
+            simd::dispatch(Gathering {
                 projector: &projector,
-                chunk,
-                block,
+                lens: &lens,
+                spheres,
+                part: Bounds::whole(rays.size),
+                crowd: &mut self.crowd,
             });
-            let is_seen = |&i: &usize| !self.block.bounds(i).is_empty();
-            seen += (0..chunk.len()).filter(is_seen).count();
+            seen += self.crowd.in_order().len();
         }
         seen
     }
@@ -95,29 +95,27 @@ impl Frame {
     pub(super) fn find_nearest_within(&mut self, scene: &Scene, rays: &Rays, part: Bounds) {
         self.nearest.reopen(&self.field, part);
         let projector = Projector::new(rays);
-        let question = Question {
-            field: &self.field,
-            bodies: &scene.bodies,
-            roots: self.plan.roots_tell_depths(),
-        };
-        for (number, known) in (0..).zip(self.memory.bounds()) {
-            if known.is_apart_from(part) {
-                continue;
-            }
-            let sphere = &scene.bodies[number as usize].sphere;
-            projector.bound_one(sphere, &mut self.block);
-            let bounds = self.block.bounds(0).within(part);
-            if !bounds.is_empty() {
-                ask(
-                    &mut self.nearest,
-                    &question,
-                    &projector,
-                    (&self.block, 0),
-                    (number, bounds),
-                    &mut self.plan.counts,
-                );
-            }
+        let lens = Lens::new(rays, &projector);
+        let mut there = std::mem::take(&mut self.there);
+        self.memory.find_within(part, &mut there);
+        for numbers in there.chunks(CROWD) {
+            simd::dispatch(Search {
+                projector: &projector,
+                lens: &lens,
+                question: Question {
+                    field: &self.field,
+                    bodies: &scene.bodies,
+                    roots: self.plan.roots_tell_depths(),
+                },
+                members: Members::These(numbers),
+                count: numbers.len(),
+                part,
+                crowd: &mut self.crowd,
+                nearest: &mut self.nearest,
+                counts: &mut self.plan.counts,
+            });
         }
+        self.there = there;
         self.nearest.trim(&self.field);
     }
 
@@ -147,7 +145,7 @@ impl Frame {
     fn find_what_is_behind(&mut self, scene: &Scene, eye: &Eye, part: Bounds) {
         let layer = &mut self.nearest.layer;
         for (number, body) in scene.bodies.iter().enumerate() {
-            let known = self.memory.bounds()[number];
+            let known = self.memory.bounds(number);
             if known.is_apart_from(part) || !eye.may_be_behind(&body.sphere) {
                 continue;
             }
@@ -165,89 +163,122 @@ impl Frame {
     }
 }
 
-/// Bounds the spheres of a block.
-struct Bounding<'a> {
+/// Bounds some spheres and puts them in order.
+struct Gathering<'a> {
     projector: &'a Projector,
-    chunk: &'a [Body],
-    block: &'a mut Block,
+    lens: &'a Lens,
+    spheres: &'a [Body],
+    part: Bounds,
+    crowd: &'a mut Crowd,
 }
 
-impl Kernel for Bounding<'_> {
+impl Kernel for Gathering<'_> {
     #[inline(always)]
     fn run(self) {
-        self.projector.bound(self.chunk, self.block);
+        let (lenses, count) = ((self.lens, self.projector), self.spheres.len());
+        let sphere = |i: usize| &self.spheres[i].sphere;
+        let mut counts = Counts::default();
+        self.crowd
+            .gather(lenses, count, sphere, self.part, &mut counts);
     }
 }
 
-/// Bounds the spheres of a block and asks about each where it can be seen.
+/// Which spheres of the scene a crowd is made of.
+#[derive(Clone, Copy)]
+enum Members<'a> {
+    /// Those from this number on.
+    Run(u32),
+    /// Those of these numbers.
+    These(&'a [u32]),
+}
+
+/// Bounds some spheres and asks about each where it can be seen.
 struct Search<'a> {
     projector: &'a Projector,
+    lens: &'a Lens,
     question: Question<'a>,
-    /// The number of the block's first sphere, and its spheres.
-    first: u32,
-    chunk: &'a [Body],
-    block: &'a mut Block,
+    members: Members<'a>,
+    count: usize,
+    part: Bounds,
+    crowd: &'a mut Crowd,
     nearest: &'a mut Nearest,
     counts: &'a mut Counts,
 }
 
 impl Kernel for Search<'_> {
     #[inline(always)]
-    fn run(self) {
-        let Self {
-            projector,
-            question,
-            block,
-            nearest,
-            counts,
-            ..
-        } = self;
-        projector.bound(self.chunk, block);
-        for i in 0..self.chunk.len() {
-            let (bounds, least) = (block.bounds(i), block.least(i));
-            if bounds.is_empty() {
-                if block.is_behind(i) {
-                    counts.behind += 1;
-                } else {
-                    counts.outside += 1;
-                }
-            } else if nearest.hides(bounds, least) {
-                counts.hidden += 1;
-            } else {
-                let asked = (self.first + i as u32, bounds);
-                ask(nearest, &question, projector, (block, i), asked, counts);
+    fn run(mut self) {
+        let (lenses, bodies) = ((self.lens, self.projector), self.question.bodies);
+        let crowd = &mut *self.crowd;
+        match self.members {
+            Members::Run(first) => {
+                let bodies = &bodies[first as usize..][..self.count];
+                let sphere = |i: usize| &bodies[i].sphere;
+                crowd.gather(lenses, self.count, sphere, self.part, self.counts);
             }
+            Members::These(numbers) => {
+                let sphere = |i: usize| &bodies[numbers[i] as usize].sphere;
+                // Not outside the picture, but where nothing changed.
+                let mut counts = Counts::default();
+                crowd.gather(lenses, self.count, sphere, self.part, &mut counts);
+            }
+        }
+        match (self.question.field.perspective(), self.question.roots) {
+            (true, true) => self.ask_all::<true, true>(),
+            (true, false) => self.ask_all::<true, false>(),
+            (false, true) => self.ask_all::<false, true>(),
+            (false, false) => self.ask_all::<false, false>(),
         }
     }
 }
 
-/// Asks about sphere `i` of a block within `bounds`.
-#[inline(always)]
-fn ask(
-    nearest: &mut Nearest,
-    question: &Question,
-    projector: &Projector,
-    (block, i): (&Block, usize),
-    (number, bounds): (u32, Bounds),
-    counts: &mut Counts,
-) {
-    counts.asked += 1;
-    let spans;
-    let is_wide = Candidate::is_wide(bounds);
-    let spans = if is_wide {
-        spans = projector.spans(&question.bodies[number as usize].sphere);
-        Some(&spans)
-    } else {
-        None
-    };
-    let candidate = Candidate {
-        number,
-        bounds,
-        spans,
-        least: block.least(i),
-        single: block
-            .single(i, projector.perspective)
-            .filter(|_| question.field.ordinary()),
-    };
-    nearest.ask(question, &candidate, counts);
+impl Search<'_> {
+    /// Asks about the spheres of the crowd that nothing hides.
+    #[inline(always)]
+    fn ask_all<const PERSPECTIVE: bool, const ROOTS: bool>(&mut self) {
+        for place in 0..self.crowd.in_order().len() {
+            let i = self.crowd.in_order()[place] as usize;
+            let (bounds, least) = (self.crowd.bounds[i], self.crowd.least[i]);
+            if self.nearest.hides(self.question.field, bounds, least) {
+                self.counts.hidden += 1;
+            } else {
+                let number = match self.members {
+                    Members::Run(first) => first + i as u32,
+                    Members::These(numbers) => numbers[i],
+                };
+                self.ask::<PERSPECTIVE, ROOTS>(number, bounds, least);
+            }
+        }
+    }
+
+    /// Asks about a sphere within `bounds`.
+    #[inline(always)]
+    fn ask<const PERSPECTIVE: bool, const ROOTS: bool>(
+        &mut self,
+        number: u32,
+        bounds: Bounds,
+        least: f32,
+    ) {
+        self.counts.asked += 1;
+        let sphere = &self.question.bodies[number as usize].sphere;
+        let spans;
+        let spans = if Candidate::is_wide(bounds) {
+            spans = self.projector.spans(sphere);
+            Some(&spans)
+        } else {
+            None
+        };
+        let candidate = Candidate {
+            number,
+            bounds,
+            spans,
+            least,
+            single: self
+                .lens
+                .single::<PERSPECTIVE>(sphere, least)
+                .filter(|_| self.question.field.ordinary()),
+        };
+        self.nearest
+            .ask::<PERSPECTIVE, ROOTS>(&self.question, &candidate, self.counts);
+    }
 }

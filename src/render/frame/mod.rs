@@ -13,7 +13,8 @@ use glam::Vec3;
 
 use super::View;
 use super::bounds::Eye;
-use super::cover::{Block, Bounds, Projector};
+use super::cover::{Bounds, Projector};
+use super::crowd::Crowd;
 use super::field::Field;
 use super::layer::{Contact, Layer};
 use super::nearest::{Nearest, is_before};
@@ -61,8 +62,9 @@ pub struct Frame {
     nearest: Nearest,
     /// Whether the roots that are seen are only about where the method has them.
     roots_are_rough: bool,
-    /// Where the spheres of one block can be seen: room to work in.
-    block: Block,
+    /// Room to work in: some spheres at a time, and the numbers of those in one part of the picture.
+    crowd: Crowd,
+    there: Vec<u32>,
     /// What the view shows of each pixel, if that is a number: its brightness, Δ/(4Ar²), the bits
     /// lost, the place of its stage among all.
     value: Vec<f32>,
@@ -93,7 +95,7 @@ impl Frame {
         let same = !aimed && self.plan.asks_the_same(&plan);
         self.plan = plan;
         self.plan.counts.rays = if aimed { self.size().area() as u64 } else { 0 };
-        if same && self.memory.find_changes(&scene.bodies) {
+        if self.memory.find_changes(&scene.bodies, same) {
             self.update(scene, rays);
         } else {
             self.start(scene, rays);
@@ -139,7 +141,8 @@ impl Frame {
     fn start(&mut self, scene: &Scene, rays: &Rays) {
         self.edition = EDITIONS.fetch_add(1, Ordering::Relaxed);
         self.differs_from = None;
-        self.memory.forget();
+        let asks_for_bounds = self.plan.way() != Way::Certified || self.plan.view() == View::Class;
+        self.memory.forget(asks_for_bounds);
         match self.plan.way() {
             Way::Certified => self.start_certified(scene, rays),
             Way::Widened | Way::Everything => self.start_plain(scene, rays),
@@ -183,16 +186,13 @@ impl Frame {
     }
 
     /// Where a sphere can be seen, as this frame remembers it.
-    fn bounds_of(&mut self, sphere: &Sphere, rays: &Rays) -> Bounds {
+    fn bounds_of(&self, sphere: &Sphere, rays: &Rays) -> Bounds {
         let reach = self.reach();
         let line = || Eye::new(rays).window(sphere, reach);
-        let front = |block: &mut Block| {
-            Projector::new(rays).bound_one(sphere, block);
-            block.bounds(0)
-        };
+        let front = || Projector::new(rays).cover(sphere).bounds;
         match (self.plan.way(), self.plan.view()) {
-            (Way::Certified, View::Class) => front(&mut self.block).union(line()),
-            (Way::Certified, _) => front(&mut self.block),
+            (Way::Certified, View::Class) => front().union(line()),
+            (Way::Certified, _) => front(),
             (Way::Widened, _) => line(),
             (Way::Everything, _) => Bounds::whole(rays.size),
         }

@@ -1,5 +1,7 @@
 //! Frames of any method: the method itself is asked, about each sphere at the pixels of its window.
 
+use std::slice;
+
 use super::{FARTHEST_MISS, Frame};
 use crate::geometry::{Ray, Sphere};
 use crate::method::exact;
@@ -24,13 +26,13 @@ impl Frame {
                 _ => eye.window(&body.sphere, self.reach()),
             };
             self.plan.counts.outside += u64::from(bounds.is_empty());
-            self.memory.learn(body, bounds);
+            self.memory.learn(slice::from_ref(body), &[bounds]);
         }
         self.asked.clear_all(self.field.places());
         self.value.clear();
         self.value.resize(self.field.places(), 0.0);
         if self.compares() {
-            self.find_nearest(scene, rays, |_, _, _| ());
+            self.find_nearest(scene, rays);
         } else if self.plan.view() == View::Lost {
             self.nearest.clear(&self.field);
         }
@@ -72,7 +74,7 @@ impl Frame {
         }
         let eye = Eye::new(rays);
         for (number, body) in (0..NOBODY).zip(&scene.bodies) {
-            let bounds = self.memory.bounds()[number as usize].within(part);
+            let bounds = self.memory.bounds(number as usize).within(part);
             if bounds.is_empty() {
                 continue;
             }
