@@ -155,7 +155,7 @@ impl Row {
 
     /// What the cost should be in proportion to.
     fn work(&self) -> f64 {
-        self.spheres as f64 + self.covered as f64 + self.size.area() as f64
+        self.spheres as f64 + self.covered as f64
     }
 }
 
@@ -171,8 +171,8 @@ pub struct Report {
 }
 
 impl Report {
-    /// The slope of log time over log work, where the work is spheres, pixels that they cover, and pixels
-    /// of the picture together: 1 if time grows in proportion to their sum. None of fewer than two rows.
+    /// The slope of log time over log work, where the work is spheres and the pixels that they cover
+    /// together: 1 if time grows in proportion to their sum. None of fewer than two rows.
     pub fn slope(&self, method: Method) -> Option<f64> {
         let of_method = || self.rows.iter().filter(|row| row.method == method);
         let points = || of_method().map(|row| (row.work().log2(), row.plan_ms.log2()));

@@ -144,7 +144,7 @@ fn remarks(report: &Report) -> Vec<String> {
     for method in Method::ALL {
         if let Some(slope) = report.slope(method) {
             out.push(format!(
-                "{method}: time grows as (spheres + pixels covered + pixels)^{slope:.2}; proportion is 1."
+                "{method}: time grows as (spheres + pixels covered)^{slope:.2}; proportion is 1."
             ));
         }
     }
