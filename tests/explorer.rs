@@ -280,6 +280,76 @@ fn every_change_can_be_undone_and_done_again() {
 }
 
 #[test]
+fn a_number_is_typed_over_or_edited() {
+    let radius = |person: &Person| person.explorer.scene().bodies[0].sphere.radius;
+    let mut person = Person::opens("seed", 80, 24);
+    person
+        .presses("= down down down enter")
+        .shows("type over it");
+    person.types("7").shows("take it");
+    person.presses("enter");
+    assert_eq!(radius(&person), 7.0);
+    person.presses("up enter left").types("2").presses("enter");
+    assert_eq!(radius(&person), 27.0);
+    person.presses("up enter backspace enter");
+    assert_eq!(radius(&person), 2.0);
+    person.presses("up enter esc");
+    assert_eq!(radius(&person), 2.0, "left as it was");
+    person.presses("enter").types("0x1.8p1").presses("enter");
+    assert_eq!(radius(&person), 3.0);
+    person.presses("up").types("0x18").presses("enter");
+    person.shows("expected a finite number");
+}
+
+#[test]
+fn the_moving_point_goes_from_landmark_to_landmark() {
+    let mut person = Person::opens("seed", 80, 24);
+    person.presses("3").shows("p at t = 10");
+    for (key, said) in [
+        ("*", "3 of 4: t = 20, closest to the centre."),
+        ("*", "4 of 4: t = 30, out of the sphere."),
+        ("*", "1 of 4: t = 0, p0, the start of the ray."),
+        ("_", "4 of 4: t = 30, out of the sphere."),
+        (") _", "4 of 4: t = 30, out of the sphere."),
+        ("( *", "4 of 4: t = 30, out of the sphere."),
+    ] {
+        person.presses(key).shows(said);
+    }
+    person.presses("4 _ _").shows("p f(10) = 0");
+    // What is seen there is where f is 0 but for the last bit, and the caption says why.
+    let mut person = Person::opens("trio", 80, 24);
+    person.presses("4").shows("not 0: this t is the root");
+    person.presses("_ *").shows("p f(7.67807) = 0");
+}
+
+#[test]
+fn errors_side_by_side_have_one_unit() {
+    let mut person = Person::opens("trio", 120, 40);
+    person
+        .commands("method textbook")
+        .commands("compare double");
+    person.shows("ulp: gap to the next binary32");
+    person.shows("ulp64: gap to the next binary64");
+    let screen = person.screen();
+    let line = screen.lines().find(|l| l.contains("ulp64")).unwrap();
+    assert!(line.contains("= "), "{line}");
+    for line in screen.lines().filter(|l| l.contains(" ulp ")) {
+        // Of two methods in different precisions both errors are in the same unit.
+        let errors = line.matches(" ulp ").count() + line.matches("exact ").count();
+        assert!(errors >= 2, "{line}");
+    }
+    // Where there is no room the bits go, and never a part of them.
+    let mut person = Person::opens("far", 80, 24);
+    person
+        .commands("method textbook")
+        .commands("compare double");
+    person.shows("ulp: gap to the next binary32");
+    let bits = |l: &&str| l.contains(" 0 01") || l.contains(" 1 10");
+    let screen = person.screen();
+    assert_eq!(screen.lines().filter(bits).count() % 2, 0, "{screen}");
+}
+
+#[test]
 fn a_typed_number_is_held_to_what_a_scene_file_may_say() {
     let mut person = Person::opens("seed", 80, 24);
     person
@@ -548,7 +618,7 @@ fn what_a_method_gets_wrong_is_never_what_there_is_no_room_for() {
 #[test]
 fn lines_that_have_no_room_are_counted_and_come_by_scrolling() {
     let mut person = Person::opens("trio", 80, 24);
-    person.shows("7 more lines: pagedown");
+    person.shows("9 more lines: pagedown");
     assert!(!person.screen().contains("cos θ"));
     person
         .presses("pagedown")
@@ -556,7 +626,7 @@ fn lines_that_have_no_room_are_counted_and_come_by_scrolling() {
     person.presses("pagedown pagedown pagedown").shows("cos θ");
     person
         .presses("pageup pageup pageup pageup")
-        .shows("7 more lines: pagedown");
+        .shows("9 more lines: pagedown");
 }
 
 #[test]

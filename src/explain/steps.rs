@@ -2,7 +2,7 @@
 
 use super::Glyphs;
 use super::derivation::{Question, Step};
-use super::panel::{Line, Role};
+use super::panel::{EXACTLY, Line, Role, unit_lines};
 
 /// How a step is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -105,6 +105,22 @@ fn loss_lines(step: &Step, width: usize) -> Vec<Line> {
     out
 }
 
+/// What the words mean in which the errors of these steps are told; nothing if all are right.
+pub fn step_words(steps: &[Step], width: usize) -> Vec<Line> {
+    let wrong: Vec<_> = steps.iter().filter(|step| step.exact.is_some()).collect();
+    if wrong.is_empty() {
+        return Vec::new();
+    }
+    let mut out = wrapped(EXACTLY, width, Role::Faint, "", 4);
+    let numbers = || wrong.iter().filter_map(|step| step.number.as_ref());
+    out.extend(unit_lines(
+        |p| numbers().any(|m| m.precision == p),
+        width,
+        4,
+    ));
+    out
+}
+
 /// The names of all steps, wrapped, the current one marked; those whose result has changed have a
 /// star, the first that loses much an exclamation mark.
 pub fn step_list(steps: &[Step], current: usize, changed: &[bool], width: usize) -> Vec<Line> {
@@ -149,6 +165,9 @@ pub fn steps_text(steps: &[Step], width: usize) -> String {
             out = out + INDENT + &text + "\n";
         }
         out.push('\n');
+    }
+    for line in step_words(steps, width) {
+        out = out + &line.text() + "\n";
     }
     out
 }

@@ -242,6 +242,10 @@ actions! {
     ScrubForward "scrub-forward" [")"] Steps;
     /// scrub t back along the ray
     ScrubBack "scrub-back" ["("] Steps;
+    /// t to the next landmark of the line: p0, a root, the point closest to the centre
+    NextLandmark "next-landmark" ["*"] Steps;
+    /// t to the landmark before
+    PreviousLandmark "previous-landmark" ["_"] Steps;
     /// t back to where something is seen
     ScrubHome "scrub-home" ["/"] Steps;
     /// compare with the next method
@@ -332,6 +336,7 @@ pub const FOOTER: &[(&str, &str)] = &[
     ("g", "grow"),
     ("t", "tangent"),
     ("n", "probe"),
+    ("*", "landmark"),
     ("u", "undo"),
     ("=", "numbers"),
     ("p", "digits"),

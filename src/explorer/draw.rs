@@ -262,7 +262,7 @@ impl Explorer {
             draw_message(pen, area, &message.text, style);
             return None;
         }
-        let keys: &[(&str, &str)] = match self.mode {
+        let keys: &[(&str, &str)] = match &self.mode {
             Mode::Help { .. } => &[("arrows", "scroll"), ("esc", "back")],
             Mode::Case(_) => &[("&", "copy the next form"), ("esc", "back")],
             Mode::Form(Form { typing: None, .. }) => &[
@@ -270,6 +270,13 @@ impl Explorer {
                 ("enter", "type a value"),
                 ("u", "undo"),
                 ("esc", "done"),
+            ],
+            Mode::Form(Form {
+                typing: Some(line), ..
+            }) if line.is_chosen() => &[
+                ("digits", "type over it"),
+                ("arrows", "edit it"),
+                ("esc", "leave it as it was"),
             ],
             Mode::Form(_) => &[("enter", "take it"), ("esc", "leave it as it was")],
             _ => FOOTER,
@@ -479,7 +486,12 @@ impl Explorer {
             let x = pen.text(room.x, y, room.width, &name, style);
             let space = room.right().saturating_sub(x);
             if let (true, Some(line)) = (i == form.at, &form.typing) {
-                pen.text(x, y, space, &line.text(), CellStyle::new());
+                let style = if line.is_chosen() {
+                    Theme::chosen()
+                } else {
+                    CellStyle::new()
+                };
+                pen.text(x, y, space, &line.text(), style);
                 cursor = Some(Position::new(
                     (x + line.cursor() as u16).min(room.right().max(1) - 1),
                     y,

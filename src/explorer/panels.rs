@@ -27,7 +27,7 @@ impl Explorer {
         };
         let mut left_out = 0;
         // Whoever scrolls wants to see what there was no room for.
-        if panel == Panel::Quadratic && (panel != self.panel || self.scroll == 0) {
+        if is_fitted(panel) && (panel != self.panel || self.scroll == 0) {
             let written = |lines: &[Line]| lines.iter().filter(|l| l.width() > 0).count();
             let before = written(&lines);
             lines = explain::fit(lines, room.height.into());
@@ -41,12 +41,10 @@ impl Explorer {
             0
         };
         let foot = match (scroll, hidden - scroll) {
-            (0, below) if below + left_out > 0 && panel == Panel::Quadratic => {
-                match below + left_out {
-                    1 => "1 more line: pagedown".to_owned(),
-                    more => format!("{more} more lines: pagedown"),
-                }
-            }
+            (0, below) if below + left_out > 0 && is_fitted(panel) => match below + left_out {
+                1 => "1 more line: pagedown".to_owned(),
+                more => format!("{more} more lines: pagedown"),
+            },
             (0, 0) => self.panel_foot(panel),
             (_, 0) => format!("{scroll} lines above: pageup"),
             (_, below) => format!("{below} lines below: pagedown"),
@@ -80,7 +78,7 @@ impl Explorer {
         match panel {
             Panel::Steps if on && asked > 0 => format!("{right} of {asked} foreseen"),
             Panel::Steps => ", . step  < > ends".into(),
-            Panel::Slice | Panel::Curve => "( ) move along the ray  / back".into(),
+            Panel::Slice | Panel::Curve => "( ) move p  _ * landmark  / back".into(),
             Panel::Bits => ", . another number".into(),
             Panel::Compare => "C another method".into(),
             Panel::Error if self.measuring.is_running() => "% stop".into(),
@@ -118,6 +116,9 @@ impl Explorer {
         let mut lines = explain::step_lines(&step, width, look);
         if let Some(question) = self.pending_question() {
             lines.extend(explain::question_lines(question, width, glyphs));
+        }
+        if !look.hidden {
+            lines.extend(explain::step_words(std::slice::from_ref(&step), width));
         }
         let space = usize::from(room.height).saturating_sub(list.len() + 1);
         let mut lines = explain::fit(lines, space);
@@ -259,6 +260,11 @@ impl Explorer {
             }
         }
     }
+}
+
+/// Whether a panel leaves out what it can spare before it is cut.
+const fn is_fitted(panel: Panel) -> bool {
+    matches!(panel, Panel::Quadratic | Panel::Compare)
 }
 
 /// What is inside a panel's border, a blank away from it.

@@ -27,7 +27,7 @@ pub struct Reply {
 }
 
 /// The screen that the picture is made for, in columns and rows.
-const SCREEN: (u16, u16) = (80, 24);
+pub(super) const SCREEN: (u16, u16) = (80, 24);
 /// Columns and rows of a panel as text: panels are longer than a screen, figures are not.
 const ROOM: (u16, u16) = (76, 200);
 const FIGURE: (u16, u16) = (76, 20);
@@ -50,8 +50,13 @@ impl Explorer {
             None => self.scene().name.clone() + "\n",
         };
         text += &(self.facts().sentence(None) + "\n");
+        let message = self.message.take();
+        let refused = message.as_ref().is_some_and(|m| m.warning);
+        if let Some(message) = message {
+            text += &(message.text + "\n");
+        }
         text += "help lists the commands, quit ends.\n";
-        self.said(&text, false)
+        self.said(&text, refused)
     }
 
     /// Whether the next line may be the answer to a question.

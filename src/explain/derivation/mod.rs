@@ -201,8 +201,8 @@ fn exact(result: &Quantity) -> Option<String> {
     let ulps = result.ulps().filter(|&ulps| ulps != 0.0)?;
     let exact = result.exact_text(12, signs)?;
     Some(format!(
-        "{exact}, {} ulp off",
-        trace::ulps_text(ulps, signs)
+        "{exact}, {} off",
+        trace::error_text(ulps, result.precision(), signs)
     ))
 }
 
