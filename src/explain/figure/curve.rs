@@ -16,6 +16,8 @@ use super::section::{Anchor, Section, Spot};
 use crate::explain::{Glyphs, Line, Role, Subject};
 use crate::geometry::Ray;
 use crate::method::Class;
+use crate::method::format::Signs;
+use crate::method::trace::error_text;
 
 /// The curve f(t) with its roots and its vertex, t = 0, and the value at `t`.
 ///
@@ -395,7 +397,11 @@ fn not_zero(subject: &Subject, t: f64) -> Option<String> {
     Some(if root.is_correctly_rounded() {
         "not 0: this t is the root rounded to the 24 bits of a binary32".into()
     } else {
-        format!("not 0: {} has the root a little wrong", trace.method)
+        let off = root.ulps().map_or_else(
+            || "none".to_owned(),
+            |ulps| error_text(ulps, root.precision, Signs::Typographic) + " off",
+        );
+        format!("not 0: the root by {} is {off}", trace.method)
     })
 }
 
