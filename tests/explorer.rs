@@ -318,10 +318,8 @@ fn the_moving_point_goes_from_landmark_to_landmark() {
     person.presses("4 _ _").shows("p f(10) = 0");
     // What is seen there is where f is 0 but for the last bit, and the caption says why.
     let mut person = Person::opens("trio", 80, 24);
-    person
-        .presses("4")
-        .shows("not 0: the root by textbook is");
-    person.presses("_").shows("p f(7.67807) = 0");
+    person.presses("4").shows("not 0: the root by textbook is");
+    person.presses("*").shows("p f(7.67807) = 0");
     person.presses("/").commands("method exact");
     person.shows("not 0: this t is the root");
     person.presses("_ *").shows("p f(7.67807) = 0");
