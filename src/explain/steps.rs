@@ -35,9 +35,9 @@ pub fn step_lines(step: &Step, width: usize, look: StepLook) -> Vec<Line> {
         "",
         0,
     ));
-    if !step.numbers.is_empty() {
-        let lead = lead(&step.numbers);
-        out.extend(wrapped(&step.numbers, width, Role::Plain, lead, 1));
+    let numbers = step.numbers_beside(look.hidden);
+    if !numbers.is_empty() {
+        out.extend(wrapped(numbers, width, Role::Plain, lead(numbers), 1));
     }
     if look.hidden {
         out.extend(wrapped(HIDDEN, width, Role::Value, "= ", 0));
@@ -52,7 +52,9 @@ pub fn step_lines(step: &Step, width: usize, look: StepLook) -> Vec<Line> {
     if !look.hidden {
         out.extend(loss_lines(step, width));
     }
-    if !step.code.is_empty() {
+    // The line of the program that was taken tells which way it went.
+    let code_tells = step.question.is_some() || step.numbers_tell;
+    if !step.code.is_empty() && !(look.hidden && code_tells) {
         out.push(Line::new(5));
         out.extend(wrapped(&step.code, width, Role::Faint, "", 3));
     }
@@ -123,10 +125,19 @@ pub fn step_words(steps: &[Step], width: usize) -> Vec<Line> {
 
 /// The names of all steps, wrapped, the current one marked; those whose result has changed have a
 /// star, the first that loses much an exclamation mark.
-pub fn step_list(steps: &[Step], current: usize, changed: &[bool], width: usize) -> Vec<Line> {
+///
+/// Without `foresight` the list ends with the current one: which steps follow tells how it comes out.
+pub fn step_list(
+    steps: &[Step],
+    current: usize,
+    changed: &[bool],
+    foresight: bool,
+    width: usize,
+) -> Vec<Line> {
+    let count = if foresight { steps.len() } else { current + 1 };
     let mut out = Vec::new();
     let mut line = Line::new(4);
-    for (i, step) in steps.iter().enumerate() {
+    for (i, step) in steps.iter().enumerate().take(count) {
         let mut name = step.name.clone();
         if step.first_heavy {
             name.push('!');

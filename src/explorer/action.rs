@@ -234,7 +234,7 @@ actions! {
     FirstStep "first-step" ["<"] Steps;
     /// last step
     LastStep "last-step" [">"] Steps;
-    /// predict, then reveal: hide each result until a key
+    /// predict, then reveal: hide picture and results until a key
     Predict "predict" ["P"] Steps;
     /// board: one step, large, for the back row
     Board "board" ["O"] Steps;

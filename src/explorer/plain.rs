@@ -312,16 +312,14 @@ impl Explorer {
                 self.options.glyphs,
             ));
         }
-        let (at, count) = (self.step_at + 1, self.picture.steps.len());
-        format!(
-            "step {at} of {count}: {}\n{}",
-            step.name,
-            without_gaps(&lines)
-        )
+        format!("{}\n{}", self.step_title(), without_gaps(&lines))
     }
 
     /// The picture in characters, marks beside it for the cursor.
     fn picture_in_text(&self) -> String {
+        if self.is_picture_veiled() {
+            return "The picture is hidden while you predict.\n".into();
+        }
         let (size, (x, y)) = (self.size(), self.cursor);
         let (col, row) = self.options.style.cell_of_pixel(x, y);
         let mut text = format!("view of {size} pixels, the cursor on ({x}, {y})\n");
@@ -358,6 +356,7 @@ impl Explorer {
                 .current_step()
                 .map(|s| (self.step_at, s.name.clone(), self.is_hidden())),
             page: self.tour_place(),
+            is_veiled: self.is_predicting(),
             pairs: Vec::new(),
         };
         let options = self.options;
@@ -394,6 +393,8 @@ struct Facts {
     panel: Panel,
     step: Option<(usize, String, bool)>,
     page: Option<(usize, usize)>,
+    /// What the ray found is to be predicted.
+    is_veiled: bool,
     pairs: Vec<(String, String)>,
 }
 
@@ -425,6 +426,10 @@ impl Facts {
             .as_ref()
             .map_or(String::new(), |n| format!(", {n}"));
         let (number, of) = (subject.body + 1, reading.spheres);
+        if self.is_veiled {
+            self.add("sphere", &format!("{number} of {of}{name}"));
+            return;
+        }
         let why = subject.why.words();
         self.add("sphere", &format!("{number} of {of}{name}, {why}"));
         let place = solution
@@ -460,7 +465,7 @@ impl Facts {
             .flat_map(|before| &before.pairs)
             .filter(|(name, _)| {
                 let is_of_ray = ["near", "far", "p"].contains(&name.as_str());
-                is_of_ray && !self.pairs.iter().any(|(n, _)| n == name)
+                is_of_ray && !self.is_veiled && !self.pairs.iter().any(|(n, _)| n == name)
             });
         let news = self.pairs.iter().filter(is_news);
         let news = news.map(|(name, value)| format!("{name} {value}"));

@@ -36,6 +36,21 @@ impl Explorer {
         (self.prediction.on || self.board) && !self.prediction.revealed
     }
 
+    /// Whether results are to be predicted, so that nothing else may tell them.
+    pub(super) fn is_predicting(&self) -> bool {
+        self.prediction.on && !self.picture.steps.is_empty()
+    }
+
+    /// Whether the picture still tells what is to be predicted: whether something is seen.
+    pub(super) fn is_picture_veiled(&self) -> bool {
+        let seen = |step: &Step| step.question == Some(Question::Seen);
+        let last = self.picture.steps.iter().position(seen);
+        self.is_predicting()
+            && last.is_some_and(|last| {
+                self.step_at < last || (self.step_at == last && self.is_hidden())
+            })
+    }
+
     /// Opens the steps; with steps open, reveals the answer, else goes on.
     pub(super) fn next_step(&mut self) {
         let open = self.board || self.panel == Panel::Steps;
@@ -111,7 +126,7 @@ impl Explorer {
         };
         if on {
             self.panel = Panel::Steps;
-            self.say("Predict first: results are hidden until you press enter.");
+            self.say("Predict first: each result, the other panels and the picture wait for you.");
         } else {
             self.say("Results are shown again.");
         }
