@@ -53,8 +53,8 @@ pub fn step_lines(step: &Step, width: usize, look: StepLook) -> Vec<Line> {
         out.extend(loss_lines(step, width));
     }
     // The line of the program that was taken tells which way it went.
-    let code_tells = step.question.is_some() || step.numbers_tell;
-    if !step.code.is_empty() && !(look.hidden && code_tells) {
+    let code_tells = look.hidden && (step.question.is_some() || step.numbers_tell);
+    if !step.code.is_empty() && !code_tells {
         out.push(Line::new(5));
         out.extend(wrapped(&step.code, width, Role::Faint, "", 3));
     }
