@@ -12,12 +12,12 @@ use ratatui::crossterm::event::{
 };
 use ratatui::layout::Rect;
 use ratatui::style::Color;
-use rayscope::explain::Glyphs;
+use rayscope::explain::{Digits, Glyphs, number};
 use rayscope::explorer::action::{Action, markdown};
 use rayscope::explorer::{Explorer, Options, Request, Waker};
 use rayscope::geometry::Ray;
 use rayscope::lab::{Alone, HEADER};
-use rayscope::method::{Class, Method};
+use rayscope::method::{Class, Method, Precision};
 use rayscope::render::{ColorDepth, Style};
 use rayscope::scene::{PixelShape, Rays, Scene, Size};
 
@@ -277,6 +277,79 @@ fn every_change_can_be_undone_and_done_again() {
     assert_eq!(*person.explorer.scene(), before);
     person.presses("u");
     assert_eq!(*person.explorer.scene(), after);
+}
+
+#[test]
+fn a_number_is_typed_over_or_edited() {
+    let radius = |person: &Person| person.explorer.scene().bodies[0].sphere.radius;
+    let mut person = Person::opens("seed", 80, 24);
+    person
+        .presses("= down down down enter")
+        .shows("type over it");
+    person.types("7").shows("take it");
+    person.presses("enter");
+    assert_eq!(radius(&person), 7.0);
+    person.presses("up enter left").types("2").presses("enter");
+    assert_eq!(radius(&person), 27.0);
+    person.presses("up enter backspace enter");
+    assert_eq!(radius(&person), 2.0);
+    person.presses("up enter esc");
+    assert_eq!(radius(&person), 2.0, "left as it was");
+    person.presses("enter").types("0x1.8p1").presses("enter");
+    assert_eq!(radius(&person), 3.0);
+    person.presses("up").types("0x18").presses("enter");
+    person.shows("expected a finite number");
+}
+
+#[test]
+fn the_moving_point_goes_from_landmark_to_landmark() {
+    let mut person = Person::opens("seed", 80, 24);
+    person.presses("3").shows("p at t = 10");
+    for (key, said) in [
+        ("*", "3 of 4: t = 20, closest to the centre."),
+        ("*", "4 of 4: t = 30, out of the sphere."),
+        ("*", "1 of 4: t = 0, p0, the start of the ray."),
+        ("_", "4 of 4: t = 30, out of the sphere."),
+        (") _", "4 of 4: t = 30, out of the sphere."),
+        ("( *", "4 of 4: t = 30, out of the sphere."),
+    ] {
+        person.presses(key).shows(said);
+    }
+    person.presses("4 _ _").shows("p f(10) = 0");
+    // What is seen there is where f is 0 but for the last bit, and the caption says why.
+    let mut person = Person::opens("trio", 80, 24);
+    person.presses("4").shows("not 0: the root by textbook is");
+    person.presses("*").shows("p f(7.67807) = 0");
+    person.presses("/").commands("method exact");
+    person.shows("not 0: this t is the root");
+    person.presses("_ *").shows("p f(7.67807) = 0");
+}
+
+#[test]
+fn errors_side_by_side_have_one_unit() {
+    let mut person = Person::opens("trio", 120, 40);
+    person
+        .commands("method textbook")
+        .commands("compare double");
+    person.shows("ulp: gap to the next binary32");
+    person.shows("ulp64: gap to the next binary64");
+    let screen = person.screen();
+    let line = screen.lines().find(|l| l.contains("ulp64")).unwrap();
+    assert!(line.contains("= "), "{line}");
+    for line in screen.lines().filter(|l| l.contains(" ulp ")) {
+        // Of two methods in different precisions both errors are in the same unit.
+        let errors = line.matches(" ulp ").count() + line.matches("exact ").count();
+        assert!(errors >= 2, "{line}");
+    }
+    // Where there is no room the bits go, and never a part of them.
+    let mut person = Person::opens("far", 80, 24);
+    person
+        .commands("method textbook")
+        .commands("compare double");
+    person.shows("ulp: gap to the next binary32");
+    let bits = |l: &&str| l.contains(" 0 01") || l.contains(" 1 10");
+    let screen = person.screen();
+    assert_eq!(screen.lines().filter(bits).count() % 2, 0, "{screen}");
 }
 
 #[test]
@@ -548,7 +621,7 @@ fn what_a_method_gets_wrong_is_never_what_there_is_no_room_for() {
 #[test]
 fn lines_that_have_no_room_are_counted_and_come_by_scrolling() {
     let mut person = Person::opens("trio", 80, 24);
-    person.shows("7 more lines: pagedown");
+    person.shows("9 more lines: pagedown");
     assert!(!person.screen().contains("cos θ"));
     person
         .presses("pagedown")
@@ -556,7 +629,7 @@ fn lines_that_have_no_room_are_counted_and_come_by_scrolling() {
     person.presses("pagedown pagedown pagedown").shows("cos θ");
     person
         .presses("pageup pageup pageup pageup")
-        .shows("7 more lines: pagedown");
+        .shows("9 more lines: pagedown");
 }
 
 #[test]
@@ -584,7 +657,7 @@ fn moving_on_keeps_the_step_and_marks_what_changed() {
     person.shows("[C*]");
     person.shows(" A ");
     // A miss has no roots, and other methods have other steps before the same one.
-    person.commands("step near").shows("step 15 of 23: near");
+    person.commands("step near").shows("step 16 of 23: near");
     person.commands("cursor 20 35").presses("m");
     person.commands("cursor 20 20").shows(": near");
     person
@@ -606,8 +679,70 @@ fn predicting_hides_the_answer_until_it_is_given() {
         .commands("step verdict")
         .presses("2")
         .shows("Yes, two. 1 of 2 foreseen.");
+    person.presses("enter enter enter enter enter enter");
     person.presses("enter").shows("Which root is seen?");
-    person.presses("enter").shows("hit: the near point is seen");
+    person
+        .presses("enter")
+        .shows("0 < 10, a hit: the near point is");
+}
+
+#[test]
+fn nothing_tells_what_is_to_be_predicted() {
+    for (scene, method) in [
+        ("seed", "textbook"),
+        ("trio", "haines"),
+        ("behind", "exact"),
+        ("grazing", "exact"),
+    ] {
+        for (cols, rows) in [(80, 24), (160, 50), (300, 120), (40, 12)] {
+            let mut titles = Vec::new();
+            for far in [false, true] {
+                let mut person = Person::opens(scene, cols, rows);
+                person.commands(&format!("method {method}"));
+                // In the corner of the picture nothing is seen.
+                person.presses(&"H K ".repeat(if far { 30 } else { 0 }));
+                let discriminant = if method == "textbook" { "Δ" } else { "D" };
+                person
+                    .presses("P")
+                    .commands(&format!("step {discriminant}"));
+                let screen = person.screen();
+                for word in [
+                    "two points, the line",
+                    "secant",
+                    "hit:",
+                    "nearest hit",
+                    "▀▀",
+                ] {
+                    assert!(!screen.contains(word), "{word}\n{screen}");
+                }
+                for number in person.answers() {
+                    assert!(!screen.contains(&number), "{number}\n{screen}");
+                }
+                titles.extend(screen.lines().find(|l| l.contains("─ step ")).map(|l| {
+                    let at = l.find("─ step ").unwrap();
+                    l[at..].to_owned()
+                }));
+                person.presses("P");
+                let screen = person.screen();
+                for word in [", hidden", "Hidden while"] {
+                    assert!(!screen.contains(word), "{screen}");
+                }
+            }
+            titles.dedup();
+            assert!(titles.len() <= 1, "how many steps follow tells: {titles:?}");
+        }
+    }
+}
+
+#[test]
+fn the_picture_comes_back_with_the_last_answer() {
+    let mut person = Person::opens("seed", 80, 24);
+    person.presses("P").shows("view 40×40, hidden");
+    person.commands("step seen").shows("Which root is seen?");
+    person.shows("view 40×40, hidden");
+    person.presses("n").shows("Yes, near");
+    assert!(!person.screen().contains("hidden"));
+    person.presses("1").shows("Hidden while you predict");
 }
 
 #[test]
@@ -623,6 +758,18 @@ fn the_board_shows_one_step_and_hides_its_answer() {
 }
 
 impl Person {
+    /// Δ and the roots of the pixel, as a panel writes them.
+    fn answers(&self) -> Vec<String> {
+        let subject = self.explorer.reading().unwrap().subject.as_ref().unwrap();
+        let coefficients = subject.coefficients;
+        let shown = |x, precision| number(x, precision, Digits::Significant(6));
+        let roots = [subject.solution.near, subject.solution.far]
+            .map(|t| shown(t.into(), Precision::Binary32));
+        let delta = shown(coefficients.discriminant, coefficients.precision);
+        let telling = |text: &String| text.len() > 3 && text != "NaN";
+        [delta].into_iter().chain(roots).filter(telling).collect()
+    }
+
     /// Has the picture measured, waiting for others on this host to finish theirs.
     fn measures(&mut self) -> &mut Self {
         let woken = self.hears_the_waker();
@@ -1042,6 +1189,19 @@ proptest! {
             prop_assert!(scene.bodies.iter().all(|b| b.sphere.radius >= 0.0));
         }
     }
+}
+
+#[test]
+fn keys_after_another_scene_act_on_that_scene() {
+    // All in one go, before anything is drawn: the page's scene has one sphere, not three.
+    let mut person = Person::opens("trio", 80, 24);
+    person.presses("space").shows("sphere 2 of 3");
+    person.presses(":");
+    person.explorer.update(&Event::Paste("tour 4".into()));
+    for key in ["enter", "T"] {
+        person.explorer.update(&key_event(key));
+    }
+    person.shows("r = 0:");
 }
 
 /// A move that can be taken back.

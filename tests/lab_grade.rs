@@ -167,3 +167,19 @@ fn the_table_shows_the_given_answers_first_and_the_worst_input_as_a_command() {
         "{text}"
     );
 }
+
+#[test]
+fn hexadecimal_answers_are_graded_to_the_last_bit() {
+    let csv = "ox,oy,oz,dx,dy,dz,cx,cy,cz,r,class,near,far\n\
+               0x0p+0,0,-0x1.8p+1,0,0,0x1p0,0,0,0,0x1p+0,secant,0x1p+1,0x1.000002p+2\n";
+    let graded = rayscope(&["grade", "-", "--format", "json"], csv);
+    assert!(graded.status.success(), "{graded:?}");
+    assert_eq!(results(&graded)[0]["ulp"]["max"], 1.0);
+    let bad = csv.replace("0x1p+1", "0x1q+1");
+    let refused = rayscope(&["grade", "-"], &bad);
+    assert_eq!(refused.status.code(), Some(1));
+    assert_eq!(
+        String::from_utf8(refused.stderr).unwrap(),
+        "rayscope: standard input: line 2, column near: `0x1q+1`; expected a root, such as 12.5, inf or NaN\n"
+    );
+}

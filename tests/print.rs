@@ -150,7 +150,7 @@ fn the_steps_of_a_pixel_are_the_whole_derivation() {
         "1. pixel\n",
         "    A = d*d\n    = 0^2 + 0^2 + 1^2\n    = 1\n    let a = ",
         "    disc = B^2 - 4AC\n    = 1600 - 1200\n    = 400\n",
-        "    hit: the near point is seen, t = 10\n",
+        "    0 < 10, a hit: the near point is seen, t = 10\n",
         "23. glyph\n",
     ] {
         assert!(text.contains(paragraph), "no {paragraph:?} in\n{text}");

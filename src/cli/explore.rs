@@ -11,7 +11,7 @@ use clap::Args;
 use super::appearance::{Appearance, default_style, is_anybody_present};
 use super::place::Place;
 use super::{INVALID, MISUSED, aspect, choice, complain};
-use crate::explorer::{Explorer, Options};
+use crate::explorer::{Explorer, Opening, Options};
 use crate::method::Method;
 use crate::render::{Style, View};
 use crate::scene::{Scene, Source};
@@ -82,10 +82,28 @@ pub(super) fn opened(
         style: arguments.style.unwrap_or_else(by_default),
         ..options
     };
-    let mut explorer = Explorer::new(scene, &source, options);
     let opening = arguments.place.opening();
-    explorer.set_out(&opening).map_err(|e| (MISUSED, e))?;
+    let explorer = set_out(&opening, || Explorer::new(scene.clone(), &source, options))?;
     Ok((explorer, source))
+}
+
+/// An explorer at the place that is asked for, or what is wrong with that place.
+pub(super) fn set_out(
+    opening: &Opening,
+    new: impl Fn() -> Explorer,
+) -> Result<Explorer, (u8, String)> {
+    let at_place = || {
+        let mut explorer = new();
+        explorer.set_out(opening).map_err(|e| (MISUSED, e))?;
+        Ok(explorer)
+    };
+    // Only the picture tells whether there is such a step. A link from a screen of another size may
+    // come to a pixel that lacks it: then the explorer says so itself.
+    if opening.step.is_some() && opening.size.is_none() {
+        let rehearsed = at_place()?.rehearse();
+        rehearsed.map_err(|e| (MISUSED, format!("--{e}")))?;
+    }
+    at_place()
 }
 
 /// Runs the explorer in the terminal; however that ends, unsaved work is kept.

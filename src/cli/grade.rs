@@ -10,11 +10,11 @@ use csv::StringRecord;
 use glam::Vec3;
 
 use super::solve::number;
-use super::{INVALID, complain, write_out};
+use super::{INVALID, complain, shown, write_out};
 use crate::geometry::{Ray, Sphere};
 use crate::lab::Problem;
 use crate::lab::grade::{self, Claim};
-use crate::method::Class;
+use crate::method::{Class, read};
 
 /// Hold somebody else's answers against the truth, beside the methods here
 #[derive(Debug, Args)]
@@ -36,8 +36,8 @@ enum Format {
 
 /// Grades the file; exit status 1 if some row could not be graded.
 pub(super) fn run(arguments: &Grade) -> ExitCode {
-    let shown = arguments.file.display();
-    let file = match read(&arguments.file) {
+    let shown = shown(&arguments.file);
+    let file = match rows_of(&arguments.file) {
         Ok(file) => file,
         Err(reason) => {
             complain(format_args!("{shown}: {reason}"));
@@ -77,7 +77,7 @@ struct Rows {
     refused: Vec<String>,
 }
 
-fn read(path: &Path) -> Result<Rows, String> {
+fn rows_of(path: &Path) -> Result<Rows, String> {
     let input: Box<dyn Read> = if path == Path::new("-") {
         Box::new(io::stdin().lock())
     } else {
@@ -181,5 +181,5 @@ fn class(text: &str) -> Result<Option<Class>, String> {
 
 /// A root in binary32, whatever it is: what is no number is judged, not refused.
 fn root(text: &str) -> Option<f32> {
-    text.parse().ok()
+    read::binary32(text)
 }

@@ -24,6 +24,8 @@ use std::process::ExitCode;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
+use crate::method::read;
+
 /// A terminal explorer for ray–sphere intersection.
 #[derive(Debug, Parser)]
 #[command(version, about, args_conflicts_with_subcommands = true)]
@@ -103,10 +105,17 @@ fn choice<T: Copy + Send + Sync + 'static>(
 
 /// Reads how many times as high as wide a cell is.
 fn aspect(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(aspect) if (0.5..=4.0).contains(&aspect) => Ok(aspect),
+    match read::binary64(text) {
+        Some(aspect) if (0.5..=4.0).contains(&aspect) => Ok(aspect),
         _ => Err("expected a number from 0.5 to 4".into()),
     }
+}
+
+/// Reads a finite number.
+fn finite(text: &str) -> Result<f64, String> {
+    read::binary64(text)
+        .filter(|x| x.is_finite())
+        .ok_or_else(|| "expected a finite number, such as 7.5".into())
 }
 
 /// Writes to standard output. Whoever closes it early has seen enough.
@@ -130,6 +139,15 @@ fn save(path: Option<&Path>, contents: impl FnOnce() -> String) -> Result<(), ()
     std::fs::write(path, contents()).map_err(|error| {
         complain(format_args!("cannot write {}: {error}", path.display()));
     })
+}
+
+/// What an input file is called in a sentence; `-` is standard input.
+fn shown(path: &Path) -> String {
+    if path == Path::new("-") {
+        "standard input".to_owned()
+    } else {
+        path.display().to_string()
+    }
 }
 
 /// Says a sentence on standard error. If nobody can read it, nobody is missing it.

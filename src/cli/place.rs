@@ -2,8 +2,8 @@
 
 use clap::Args;
 
-use super::choice;
 use super::print::{pixel, size};
+use super::{choice, finite};
 use crate::explorer::{Opening, Panel};
 use crate::method::Method;
 use crate::scene::Size;
@@ -30,7 +30,7 @@ pub(super) struct Place {
     step: Option<String>,
 
     /// Where the moving point of slice and curve is
-    #[arg(long = "t", value_name = "T", allow_negative_numbers = true)]
+    #[arg(long = "t", value_name = "T", allow_hyphen_values = true, value_parser = finite)]
     t: Option<f64>,
 
     /// The method beside the chosen one
@@ -60,7 +60,7 @@ impl Place {
             size: self.size,
             panel: self.panel,
             step: self.step.clone(),
-            t: self.t.filter(|t| t.is_finite()),
+            t: self.t,
             compare: self.compare,
             ..Opening::default()
         }
@@ -202,13 +202,35 @@ mod tests {
                 "--set: radius is -1: expected a radius of zero or more",
             ),
             (
-                "trio --set size=1",
-                "--set: “size” is no key; tab lists them",
+                "trio --set radius=nan",
+                "--set radius=nan: radius is “nan”: expected a finite number",
+            ),
+            (
+                "seed --step 99",
+                "--step: found “99”, expected a step's name or 1 to 23",
+            ),
+            (
+                "tour 4 --step none",
+                "--step: found “none”, expected a step's name or 1 to 23",
             ),
             ("tour 1 --page 9", "--page 9: expected a page from 1 to 4"),
         ] {
             assert_eq!(said(line), (2, sentence.to_owned()));
         }
-        assert!(said("seed --size 9x9").1.contains("--cursor"));
+        for (line, part) in [
+            ("seed --size 9x9", "--cursor"),
+            ("seed --t nan", "--t"),
+            ("seed --t 0x1.8q", "0x1.8q"),
+            ("trio --set size=1", "expected one of center.x, center.y"),
+        ] {
+            let (status, sentence) = said(line);
+            assert_eq!(status, 2);
+            assert!(sentence.contains(part), "{sentence}");
+        }
+    }
+
+    #[test]
+    fn a_step_that_a_link_from_another_screen_lacks_does_not_keep_it_shut() {
+        opened("trio --cursor 0,0 --size 9x9 --panel steps --step 99");
     }
 }

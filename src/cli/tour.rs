@@ -91,16 +91,17 @@ pub(super) fn opened(
         ..Options::default()
     })?;
     let own = Builtin::default();
-    let mut explorer = Explorer::new(own.scene(), &Source::Builtin(own), options);
-    explorer.start_tour(chapters, at, page - 1);
     let opening = Opening {
         method: arguments.method,
         style: arguments.style,
         view: arguments.view,
         ..arguments.place.opening()
     };
-    explorer.set_out(&opening).map_err(|e| (MISUSED, e))?;
-    Ok(explorer)
+    explore::set_out(&opening, || {
+        let mut explorer = Explorer::new(own.scene(), &Source::Builtin(own), options);
+        explorer.start_tour(Arc::clone(&chapters), at, page - 1);
+        explorer
+    })
 }
 
 /// All chapters, and the place of the one that is asked for.

@@ -1,10 +1,10 @@
 //! Two methods side by side for the same pixel, quantity by quantity, bit by bit.
 
 use super::figure::{Float, bits};
-use super::panel::{Line, Role};
+use super::panel::{Line, Role, unit_lines};
 use crate::method::Precision;
 use crate::method::format::Signs;
-use crate::method::trace::{Measured, Trace, ulps_text};
+use crate::method::trace::{Measured, Trace, error_text};
 
 /// Width of a quantity's name.
 const LABEL: usize = 5;
@@ -30,7 +30,7 @@ pub fn comparison(one: &Trace, other: &Trace, width: usize) -> Vec<Line> {
     for (label, x, y) in pairs {
         out.push(Line::new(5));
         out.push(values(label, x, y, column));
-        out.push(errors(x, y, column));
+        out.extend(errors(x, y, column));
         out.extend(differing_bits(x, y, width));
     }
     let verdicts = [one, other].map(|t| t.verdict(Signs::Typographic));
@@ -38,6 +38,16 @@ pub fn comparison(one: &Trace, other: &Trace, width: usize) -> Vec<Line> {
         out.push(Line::new(4));
         let lines = super::wrap(&wrong, width).into_iter();
         out.extend(lines.map(|text| Line::new(0).with(Role::Warning, text)));
+    }
+    let mut numbers = pairs.into_iter().flat_map(|(_, x, y)| [x, y]).flatten();
+    let any_finer = numbers.clone().any(has_own_unit);
+    if numbers.any(|m| m.ulps().is_some_and(|ulps| ulps != 0.0)) {
+        out.extend(unit_lines(|p| p == Precision::Binary32, width, 1));
+        out.extend(unit_lines(
+            |p| p != Precision::Binary32 && any_finer,
+            width,
+            3,
+        ));
     }
     out
 }
@@ -71,17 +81,38 @@ fn values(label: &str, x: Option<&Measured>, y: Option<&Measured>, column: usize
         .with(role, show(y))
 }
 
-fn errors(x: Option<&Measured>, y: Option<&Measured>, column: usize) -> Line {
-    let show = |m: Option<&Measured>| match m.and_then(Measured::ulps) {
-        Some(0.0) => "exact".to_owned(),
-        Some(ulps) => format!("{} ulp", ulps_text(ulps, Signs::Typographic)),
+/// Both errors in one unit, the spacing of binary32, so that they can be compared; under it, in its
+/// own unit, that of a number with more bits.
+fn errors(x: Option<&Measured>, y: Option<&Measured>, column: usize) -> Vec<Line> {
+    let both = |spare: u8, [x, y]: [String; 2]| {
+        Line::new(spare)
+            .to(LABEL)
+            .with(Role::Faint, x)
+            .to(LABEL + column)
+            .with(Role::Faint, y)
+    };
+    let error = |m: Option<&Measured>, unit| {
+        m.and_then(|m| m.ulps_in(unit))
+            .map(|ulps| match ulps {
+                0.0 => "exact".to_owned(),
+                ulps => error_text(ulps, unit, Signs::Typographic),
+            })
+            .unwrap_or_default()
+    };
+    let own = |m: Option<&Measured>| match m.filter(|m| has_own_unit(m)) {
+        Some(m) => format!("= {}", error(Some(m), m.precision)),
         None => String::new(),
     };
-    Line::new(1)
-        .to(LABEL)
-        .with(Role::Faint, show(x))
-        .to(LABEL + column)
-        .with(Role::Faint, show(y))
+    let mut out = vec![both(1, [x, y].map(|m| error(m, Precision::Binary32)))];
+    if [x, y].into_iter().flatten().any(has_own_unit) {
+        out.push(both(3, [own(x), own(y)]));
+    }
+    out
+}
+
+/// Whether a number's error has another unit than the one that all are compared in.
+fn has_own_unit(m: &Measured) -> bool {
+    m.precision != Precision::Binary32 && m.ulps().is_some_and(|ulps| ulps != 0.0)
 }
 
 /// Both numbers as binary32 in sign, exponent and fraction, the first differing bit marked.
@@ -102,8 +133,8 @@ fn differing_bits(x: Option<&Measured>, y: Option<&Measured>, width: usize) -> V
     let [first, second] = bits;
     vec![
         Line::new(2).with(Role::Plain, first),
-        Line::new(2).with(Role::Plain, second),
-        Line::new(2).with(Role::Warning, caret),
+        Line::joined(2).with(Role::Plain, second),
+        Line::joined(2).with(Role::Warning, caret),
     ]
 }
 

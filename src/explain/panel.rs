@@ -19,8 +19,8 @@ use glam::Vec3;
 use super::wrap;
 use super::{Digits, Ink, Meeting, Reading, Subject, Wrong, number, vector};
 use crate::method::format::Signs;
-use crate::method::trace::{Measured, ulps_text};
-use crate::method::{Class, Coefficients, Place, Precision, Solution};
+use crate::method::trace::{Measured, error_text};
+use crate::method::{Class, Coefficients, Place, Precision, Solution, Trace};
 
 /// One line of a panel.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -29,6 +29,8 @@ pub struct Line {
     pub spans: Vec<Span>,
     /// Which lines go first when there is no room: those with the largest value; 0 stays.
     pub spare: u8,
+    /// It says nothing without the line before it, and goes when that goes; the reverse, too.
+    pub is_joined: bool,
 }
 
 /// A piece of text that plays one role.
@@ -70,6 +72,15 @@ impl Line {
         Self {
             spans: Vec::new(),
             spare,
+            is_joined: false,
+        }
+    }
+
+    /// A line that goes with the one before it.
+    pub(super) fn joined(spare: u8) -> Self {
+        Self {
+            is_joined: true,
+            ..Self::new(spare)
         }
     }
 
@@ -161,7 +172,50 @@ pub fn lines(reading: &Reading, width: usize, digits: Digits) -> Vec<Line> {
     out.extend(wrong_lines(reading, width));
     out.extend(sight_lines(subject, width, digits));
     out.extend(meeting_lines(reading, subject.body, digits));
+    out.extend(word_lines(&subject.trace, width));
     out
+}
+
+/// What the words mean in which errors are told, for who meets them here first; nothing if all is
+/// right.
+fn word_lines(trace: &Trace, width: usize) -> Vec<Line> {
+    let coefficients = [&trace.a, &trace.b, &trace.c, &trace.discriminant];
+    let roots = [&trace.near, &trace.far].into_iter().flatten();
+    let wrong: Vec<_> = coefficients
+        .into_iter()
+        .chain(roots)
+        .filter(|m| m.ulps().is_some_and(|ulps| ulps != 0.0))
+        .collect();
+    if wrong.is_empty() {
+        return Vec::new();
+    }
+    let far_off = wrong.iter().any(|m| m.ulps() > Some(HALF_ULP));
+    // They go before what they explain.
+    let spare = if far_off { 3 } else { 5 };
+    let mut out = vec![Line::new(spare).with(Role::Faint, EXACTLY)];
+    out.extend(unit_lines(
+        |p| wrong.iter().any(|m| m.precision == p),
+        width,
+        spare,
+    ));
+    out
+}
+
+/// What stands before the number that would come out with nothing rounded.
+pub(super) const EXACTLY: &str = "exactly: had nothing been rounded";
+
+/// The units of errors that are used, each in a few words.
+pub(super) fn unit_lines(
+    is_used: impl Fn(Precision) -> bool,
+    width: usize,
+    spare: u8,
+) -> Vec<Line> {
+    let units = [Precision::Binary32, Precision::Binary64].into_iter();
+    let words = units.filter(|&p| is_used(p)).map(Precision::unit_in_words);
+    words
+        .flat_map(|words| wrap(words, width))
+        .map(|text| Line::new(spare).with(Role::Faint, text))
+        .collect()
 }
 
 fn labelled(label: &str, value: &str, spare: u8) -> Line {
@@ -289,7 +343,7 @@ fn coefficient_lines(
 /// What the number should be, and how far off it is; nothing if it is right.
 fn exact_line(measured: &Measured, width: usize) -> Option<Line> {
     let ulps = measured.ulps().filter(|&ulps| ulps != 0.0)?;
-    let off = format!("  {} ulp", ulps_text(ulps, SIGNS));
+    let off = format!("  {}", error_text(ulps, measured.precision, SIGNS));
     let room = width.saturating_sub(SUBSTITUTED + "exactly ".len() + off.chars().count());
     let exact = (4..=MOST_DIGITS)
         .rev()
@@ -498,21 +552,20 @@ fn meeting_line(meeting: &Meeting, shown: bool, spare: u8, digits: Digits) -> Li
 pub fn fit(mut lines: Vec<Line>, height: usize) -> Vec<Line> {
     let most = lines.iter().map(|l| l.spare).max().unwrap_or(0);
     for spare in (1..=most).rev() {
-        let excess = lines.len().saturating_sub(height);
-        if excess == 0 {
-            break;
-        }
+        let mut excess = lines.len().saturating_sub(height);
+        let mut goes = vec![false; lines.len()];
+        let mut end = lines.len();
         // Of those that are as spare, the last go first.
-        let alike = lines.iter().filter(|l| l.spare == spare).count();
-        let mut stay = alike.saturating_sub(excess);
-        lines.retain(|l| {
-            if l.spare != spare {
-                return true;
+        while excess > 0 && end > 0 {
+            let start = lines[..end].iter().rposition(|l| !l.is_joined).unwrap_or(0);
+            if lines[start].spare == spare {
+                goes[start..end].fill(true);
+                excess = excess.saturating_sub(end - start);
             }
-            let stays = stay > 0;
-            stay = stay.saturating_sub(1);
-            stays
-        });
+            end = start;
+        }
+        let mut goes = goes.into_iter();
+        lines.retain(|_| goes.next() != Some(true));
     }
     lines
 }

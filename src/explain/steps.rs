@@ -2,7 +2,7 @@
 
 use super::Glyphs;
 use super::derivation::{Question, Step};
-use super::panel::{Line, Role};
+use super::panel::{EXACTLY, Line, Role, unit_lines};
 
 /// How a step is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -35,9 +35,9 @@ pub fn step_lines(step: &Step, width: usize, look: StepLook) -> Vec<Line> {
         "",
         0,
     ));
-    if !step.numbers.is_empty() {
-        let lead = lead(&step.numbers);
-        out.extend(wrapped(&step.numbers, width, Role::Plain, lead, 1));
+    let numbers = step.numbers_beside(look.hidden);
+    if !numbers.is_empty() {
+        out.extend(wrapped(numbers, width, Role::Plain, lead(numbers), 1));
     }
     if look.hidden {
         out.extend(wrapped(HIDDEN, width, Role::Value, "= ", 0));
@@ -52,7 +52,9 @@ pub fn step_lines(step: &Step, width: usize, look: StepLook) -> Vec<Line> {
     if !look.hidden {
         out.extend(loss_lines(step, width));
     }
-    if !step.code.is_empty() {
+    // The line of the program that was taken tells which way it went.
+    let code_tells = look.hidden && (step.question.is_some() || step.numbers_tell);
+    if !step.code.is_empty() && !code_tells {
         out.push(Line::new(5));
         out.extend(wrapped(&step.code, width, Role::Faint, "", 3));
     }
@@ -105,12 +107,37 @@ fn loss_lines(step: &Step, width: usize) -> Vec<Line> {
     out
 }
 
+/// What the words mean in which the errors of these steps are told; nothing if all are right.
+pub fn step_words(steps: &[Step], width: usize) -> Vec<Line> {
+    let wrong: Vec<_> = steps.iter().filter(|step| step.exact.is_some()).collect();
+    if wrong.is_empty() {
+        return Vec::new();
+    }
+    let mut out = wrapped(EXACTLY, width, Role::Faint, "", 4);
+    let numbers = || wrong.iter().filter_map(|step| step.number.as_ref());
+    out.extend(unit_lines(
+        |p| numbers().any(|m| m.precision == p),
+        width,
+        4,
+    ));
+    out
+}
+
 /// The names of all steps, wrapped, the current one marked; those whose result has changed have a
 /// star, the first that loses much an exclamation mark.
-pub fn step_list(steps: &[Step], current: usize, changed: &[bool], width: usize) -> Vec<Line> {
+///
+/// Without `foresight` the list ends with the current one: which steps follow tells how it comes out.
+pub fn step_list(
+    steps: &[Step],
+    current: usize,
+    changed: &[bool],
+    foresight: bool,
+    width: usize,
+) -> Vec<Line> {
+    let count = if foresight { steps.len() } else { current + 1 };
     let mut out = Vec::new();
     let mut line = Line::new(4);
-    for (i, step) in steps.iter().enumerate() {
+    for (i, step) in steps.iter().enumerate().take(count) {
         let mut name = step.name.clone();
         if step.first_heavy {
             name.push('!');
@@ -149,6 +176,9 @@ pub fn steps_text(steps: &[Step], width: usize) -> String {
             out = out + INDENT + &text + "\n";
         }
         out.push('\n');
+    }
+    for line in step_words(steps, width) {
+        out = out + &line.text() + "\n";
     }
     out
 }

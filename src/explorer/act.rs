@@ -115,6 +115,8 @@ impl Explorer {
             Action::Board => self.board = !self.board,
             Action::ScrubForward => self.scrub(1.0),
             Action::ScrubBack => self.scrub(-1.0),
+            Action::NextLandmark => self.go_to_landmark(true),
+            Action::PreviousLandmark => self.go_to_landmark(false),
             Action::ScrubHome => self.scrubbed = None,
             Action::NextComparison => self.turn_comparison(),
 

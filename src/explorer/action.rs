@@ -234,7 +234,7 @@ actions! {
     FirstStep "first-step" ["<"] Steps;
     /// last step
     LastStep "last-step" [">"] Steps;
-    /// predict, then reveal: hide each result until a key
+    /// predict, then reveal: hide picture and results until a key
     Predict "predict" ["P"] Steps;
     /// board: one step, large, for the back row
     Board "board" ["O"] Steps;
@@ -242,6 +242,10 @@ actions! {
     ScrubForward "scrub-forward" [")"] Steps;
     /// scrub t back along the ray
     ScrubBack "scrub-back" ["("] Steps;
+    /// t to the next landmark of the line: p0, a root, the point closest to the centre
+    NextLandmark "next-landmark" ["*"] Steps;
+    /// t to the landmark before
+    PreviousLandmark "previous-landmark" ["_"] Steps;
     /// t back to where something is seen
     ScrubHome "scrub-home" ["/"] Steps;
     /// compare with the next method
@@ -332,6 +336,7 @@ pub const FOOTER: &[(&str, &str)] = &[
     ("g", "grow"),
     ("t", "tangent"),
     ("n", "probe"),
+    ("*", "landmark"),
     ("u", "undo"),
     ("=", "numbers"),
     ("p", "digits"),

@@ -15,7 +15,7 @@ use super::{Explorer, Options};
 use crate::explain::{self, Digits, Glyphs, Line, Role, Span, number};
 use crate::lab::CaseForm;
 use crate::method::{Place, Precision};
-use crate::render::Style;
+use crate::render::{Cell, Style};
 
 /// Writes text into cells: cut at the edge, spelt in the characters that there are.
 pub(super) struct Pen<'a> {
@@ -129,6 +129,13 @@ impl Pen<'_> {
         line.spans.iter().map(spell).collect()
     }
 }
+
+/// What a cell shows while what it tells is to be predicted.
+const VEILED: Cell = Cell {
+    glyph: '.',
+    fg: None,
+    bg: None,
+};
 
 /// What marks a cell with a pixel that is wrong.
 const WRONG: char = '!';
@@ -262,7 +269,7 @@ impl Explorer {
             draw_message(pen, area, &message.text, style);
             return None;
         }
-        let keys: &[(&str, &str)] = match self.mode {
+        let keys: &[(&str, &str)] = match &self.mode {
             Mode::Help { .. } => &[("arrows", "scroll"), ("esc", "back")],
             Mode::Case(_) => &[("&", "copy the next form"), ("esc", "back")],
             Mode::Form(Form { typing: None, .. }) => &[
@@ -270,6 +277,13 @@ impl Explorer {
                 ("enter", "type a value"),
                 ("u", "undo"),
                 ("esc", "done"),
+            ],
+            Mode::Form(Form {
+                typing: Some(line), ..
+            }) if line.is_chosen() => &[
+                ("digits", "type over it"),
+                ("arrows", "edit it"),
+                ("esc", "leave it as it was"),
             ],
             Mode::Form(_) => &[("enter", "take it"), ("esc", "leave it as it was")],
             _ => FOOTER,
@@ -331,6 +345,7 @@ impl Explorer {
         pen.frame(area, "", &foot);
         let image = &self.picture.image;
         let (left, top) = self.picture.offset;
+        let veiled = self.is_picture_veiled();
         let place = layout::centered(area, image, (left, top));
         let (x0, y0, shown) = (place.x, place.y, (place.width, place.height));
         for row in 0..shown.1 {
@@ -338,6 +353,7 @@ impl Explorer {
                 let Some(cell) = image.cell(left + u32::from(col), top + u32::from(row)) else {
                     continue;
                 };
+                let cell = if veiled { VEILED } else { cell };
                 let (fg, bg) = (pen.theme.color(cell.fg), pen.theme.color(cell.bg));
                 let (glyph, fg, bg) = match cell.glyph {
                     // A blank looks the same and takes a third of the bytes.
@@ -349,7 +365,9 @@ impl Explorer {
                     .set_style(CellStyle::new().fg(fg).bg(bg));
             }
         }
-        self.mark_wrong(pen, (x0, y0), shown);
+        if !veiled {
+            self.mark_wrong(pen, (x0, y0), shown);
+        }
         let end_of_foot = area.x + 4 + foot.width() as u16;
         self.mark_edges(pen, area, shown, end_of_foot);
         let (col, row) = self
@@ -363,7 +381,9 @@ impl Explorer {
             }
             _ => None,
         };
-        pen.border_text(area, area.y, &format!("view {size}"), at.map(|at| at.x));
+        let hidden = if veiled { ", hidden" } else { "" };
+        let title = format!("view {size}{hidden}");
+        pen.border_text(area, area.y, &title, at.map(|at| at.x));
         if let Some(at) = at {
             self.mark_cursor(pen, area, at);
         }
@@ -438,6 +458,11 @@ impl Explorer {
         let (Some(subject), false) = (subject, area.is_empty()) else {
             return;
         };
+        if self.is_predicting() {
+            let words = "numbers hidden: P shows them";
+            pen.text(area.x, area.y, area.width, words, CellStyle::new());
+            return;
+        }
         let c = subject.coefficients;
         let show = |x: f64| explain::number(x, c.precision, explain::Digits::Significant(4));
         let place = subject.solution.place().map_or("", Place::name);
@@ -479,7 +504,12 @@ impl Explorer {
             let x = pen.text(room.x, y, room.width, &name, style);
             let space = room.right().saturating_sub(x);
             if let (true, Some(line)) = (i == form.at, &form.typing) {
-                pen.text(x, y, space, &line.text(), CellStyle::new());
+                let style = if line.is_chosen() {
+                    Theme::chosen()
+                } else {
+                    CellStyle::new()
+                };
+                pen.text(x, y, space, &line.text(), style);
                 cursor = Some(Position::new(
                     (x + line.cursor() as u16).min(room.right().max(1) - 1),
                     y,

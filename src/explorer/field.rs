@@ -1,6 +1,7 @@
 //! The numbers that a person can type: each of the selected sphere and of the camera.
 
 use crate::geometry::{Invalid, Sphere};
+use crate::method::read;
 use crate::scene::{Camera, Projection, Scene};
 
 use super::document::Change;
@@ -164,10 +165,9 @@ pub(super) fn set_all(
 
 /// A number as a person types it, rounded once to binary32.
 pub fn parse_number(field: &str, text: &str) -> Result<f32, Invalid> {
-    let plain = text.trim().replace('−', "-");
-    match plain.parse::<f32>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        Ok(value) if plain.bytes().any(|b| b.is_ascii_digit()) => Err(Invalid::new(
+    match read::binary32(text) {
+        Some(value) if value.is_finite() => Ok(value),
+        Some(value) if text.bytes().any(|b| b.is_ascii_digit()) => Err(Invalid::new(
             field,
             format!("{text}, which rounds to {value}"),
             "a number within ±3.4028235e38",

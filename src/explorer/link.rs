@@ -5,6 +5,7 @@ use super::command::Command;
 use super::document::Document;
 use super::field::{self, Field};
 use super::panel::Panel;
+use super::plain;
 use super::saving::FilePlace;
 use super::{Explorer, Options, Request};
 use crate::explain::Why;
@@ -73,6 +74,19 @@ impl Explorer {
             self.arrival.step.clone_from(&opening.step);
         }
         Ok(())
+    }
+
+    /// What is wrong with the place that [`Explorer::set_out`] was asked for, as far as only the
+    /// picture of a usual screen tells.
+    ///
+    /// Meant for an explorer that is then thrown away: the cursor stays where that screen has it.
+    pub fn rehearse(mut self) -> Result<(), String> {
+        let (cols, rows) = plain::SCREEN;
+        self.prepare(cols, rows);
+        match self.message {
+            Some(message) if message.warning => Err(message.text),
+            _ => Ok(()),
+        }
     }
 
     /// Shows the command that reopens this view, and asks for it to be copied.
@@ -183,10 +197,20 @@ const SAVE_FIRST: &str =
 fn with_numbers(scene: &Scene, selected: Option<usize>, set: &[String]) -> Result<Scene, String> {
     let mut numbers = Vec::new();
     for line in set {
+        let key = line.split(['=', ' ']).next().unwrap_or_default();
+        if Field::by_name(key).is_none() {
+            let names = Field::all_names().join(", ");
+            return Err(format!(
+                "--set {line}: “{key}” is no key; expected one of {names}"
+            ));
+        }
         match Command::parse(&format!("set {line}")) {
             Ok(Command::Set(field, value)) => numbers.push((field, value)),
             Ok(_) => return Err(format!("--set {line}: expected a key and a value")),
-            Err(sentence) => return Err(format!("--{sentence}")),
+            Err(sentence) => {
+                let reason = sentence.strip_prefix("set: ").unwrap_or(&sentence);
+                return Err(format!("--set {line}: {reason}"));
+            }
         }
     }
     field::set_all(scene, selected, &numbers).map_err(|refused| format!("--set: {refused}"))

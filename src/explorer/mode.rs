@@ -251,7 +251,9 @@ impl Explorer {
             form.at = (form.at + last) % (last + 1);
         } else if key.is("enter") {
             let value = fields[form.at].get(self.scene(), self.selected);
-            form.typing = Some(Line::new(&value.map_or(String::new(), |v| v.to_string())));
+            form.typing = Some(Line::chosen(
+                &value.map_or(String::new(), |v| v.to_string()),
+            ));
         } else if key
             .typed()
             .is_some_and(|c| c.is_ascii_digit() || "+-.−".contains(c))

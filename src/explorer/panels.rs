@@ -9,7 +9,7 @@ use super::layout;
 use super::panel::Panel;
 use super::stepping::Prediction;
 use super::theme::Theme;
-use crate::explain::{self, Line, Reading, StepLook, Subject};
+use crate::explain::{self, Line, Question, Reading, StepLook, Subject};
 use crate::render;
 
 impl Explorer {
@@ -27,7 +27,7 @@ impl Explorer {
         };
         let mut left_out = 0;
         // Whoever scrolls wants to see what there was no room for.
-        if panel == Panel::Quadratic && (panel != self.panel || self.scroll == 0) {
+        if is_fitted(panel) && (panel != self.panel || self.scroll == 0) {
             let written = |lines: &[Line]| lines.iter().filter(|l| l.width() > 0).count();
             let before = written(&lines);
             lines = explain::fit(lines, room.height.into());
@@ -41,12 +41,10 @@ impl Explorer {
             0
         };
         let foot = match (scroll, hidden - scroll) {
-            (0, below) if below + left_out > 0 && panel == Panel::Quadratic => {
-                match below + left_out {
-                    1 => "1 more line: pagedown".to_owned(),
-                    more => format!("{more} more lines: pagedown"),
-                }
-            }
+            (0, below) if below + left_out > 0 && is_fitted(panel) => match below + left_out {
+                1 => "1 more line: pagedown".to_owned(),
+                more => format!("{more} more lines: pagedown"),
+            },
             (0, 0) => self.panel_foot(panel),
             (_, 0) => format!("{scroll} lines above: pageup"),
             (_, below) => format!("{below} lines below: pagedown"),
@@ -58,6 +56,9 @@ impl Explorer {
     /// The title of a panel and its lines, laid out for `room`.
     pub(super) fn panel_text(&self, panel: Panel, room: Rect) -> Option<(String, Vec<Line>)> {
         let reading = self.picture.reading.as_ref()?;
+        if let Some(veiled) = self.veil(panel, room.width.into()) {
+            return Some(veiled);
+        }
         Some(match panel {
             Panel::Quadratic => self.quadratic_panel(reading, room),
             Panel::Steps => self.steps_panel(room),
@@ -78,9 +79,13 @@ impl Explorer {
             on, right, asked, ..
         } = self.prediction;
         match panel {
+            _ if self.is_predicting() && panel != Panel::Steps => String::new(),
+            Panel::Steps if self.is_hidden() && self.pending_question().is_none() => {
+                "enter: the answer".into()
+            }
             Panel::Steps if on && asked > 0 => format!("{right} of {asked} foreseen"),
             Panel::Steps => ", . step  < > ends".into(),
-            Panel::Slice | Panel::Curve => "( ) move along the ray  / back".into(),
+            Panel::Slice | Panel::Curve => "( ) move p  _ * landmark  / back".into(),
             Panel::Bits => ", . another number".into(),
             Panel::Compare => "C another method".into(),
             Panel::Error if self.measuring.is_running() => "% stop".into(),
@@ -110,7 +115,8 @@ impl Explorer {
         let spelt: Vec<_> = steps.iter().map(|step| step.spelt(glyphs)).collect();
         let at = self.step_at.min(steps.len() - 1);
         let width = room.width.into();
-        let list = explain::step_list(&spelt, at, &self.picture.changed, width);
+        let foresight = !self.is_predicting();
+        let list = explain::step_list(&spelt, at, &self.picture.changed, foresight, width);
         let look = StepLook {
             hidden: self.is_hidden(),
             changed: self.picture.changed.get(at).copied().unwrap_or(false),
@@ -119,6 +125,9 @@ impl Explorer {
         if let Some(question) = self.pending_question() {
             lines.extend(explain::question_lines(question, width, glyphs));
         }
+        if !look.hidden {
+            lines.extend(explain::step_words(std::slice::from_ref(&step), width));
+        }
         let space = usize::from(room.height).saturating_sub(list.len() + 1);
         let mut lines = explain::fit(lines, space);
         if lines.len() < space {
@@ -126,8 +135,37 @@ impl Explorer {
         }
         lines.push(Line::default());
         lines.extend(list);
-        let title = format!("step {} of {}: {}", at + 1, steps.len(), step.name);
-        (title, lines)
+        (self.step_title(), lines)
+    }
+
+    /// Which step of how many; how many follow would tell how it comes out.
+    pub(super) fn step_title(&self) -> String {
+        let Some(step) = self.current_step() else {
+            return "steps".into();
+        };
+        let count = self.picture.steps.len();
+        let number = (self.step_at + 1).min(count);
+        let hides = self.is_predicting() || self.is_hidden();
+        let of = if hides {
+            String::new()
+        } else {
+            format!(" of {count}")
+        };
+        format!("step {number}{of}: {}", step.name)
+    }
+
+    /// What stands in the place of a panel that tells what is to be predicted.
+    fn veil(&self, panel: Panel, width: usize) -> Option<(String, Vec<Line>)> {
+        let tells = match panel {
+            Panel::Quadratic | Panel::Slice | Panel::Curve | Panel::Bits | Panel::Compare => true,
+            Panel::Steps | Panel::Error | Panel::Plan | Panel::Dial => false,
+        };
+        let words = "Hidden while you predict: the answers are here. 2 goes on with the steps, \
+                     P shows everything again.";
+        (tells && self.is_predicting()).then(|| {
+            let lines = explain::wrap(words, width).into_iter();
+            (panel.name().into(), lines.map(Line::plain).collect())
+        })
     }
 
     fn figure_panel(&self, panel: Panel, reading: &Reading, room: Rect) -> (String, Vec<Line>) {
@@ -227,13 +265,7 @@ impl Explorer {
         let Some(step) = self.current_step() else {
             return;
         };
-        let at = self.step_at.min(self.picture.steps.len() - 1);
-        let title = format!(
-            "step {} of {}: {}",
-            at + 1,
-            self.picture.steps.len(),
-            step.name
-        );
+        let title = self.step_title();
         let foot = if self.is_hidden() {
             "enter: the answer"
         } else {
@@ -245,12 +277,14 @@ impl Explorer {
         // The result is what the back row must read: it has the larger part.
         let y = large::draw(pen, room, room.y + 1, room.height / 4, &step.formula);
         let y = large::draw(pen, room, y + 1, room.height / 2, &format!("= {result}"));
+        let question = step.question.filter(|_| self.is_hidden());
         let small = [
-            (step.numbers.as_str(), Theme::faint()),
+            (question.map_or("", Question::text), Theme::strong()),
+            (step.numbers_beside(self.is_hidden()), Theme::faint()),
             (step.why.as_str(), Theme::plain()),
         ];
         let mut y = y + 1;
-        for (text, style) in small {
+        for (text, style) in small.into_iter().filter(|(text, _)| !text.is_empty()) {
             for line in explain::wrap(text, room.width.into()) {
                 if y < room.bottom() {
                     pen.text(room.x, y, room.width, &line, style);
@@ -259,6 +293,11 @@ impl Explorer {
             }
         }
     }
+}
+
+/// Whether a panel leaves out what it can spare before it is cut.
+const fn is_fitted(panel: Panel) -> bool {
+    matches!(panel, Panel::Quadratic | Panel::Compare)
 }
 
 /// What is inside a panel's border, a blank away from it.

@@ -96,7 +96,7 @@ impl Explorer {
     /// events may come before the next drawing, and the outcome must not depend on how many.
     pub(super) fn refresh(&mut self) {
         let (cols, rows) = self.screen;
-        if self.picture.key.is_some() {
+        if (cols, rows) != (0, 0) {
             self.prepare(cols, rows);
         }
     }
@@ -176,6 +176,8 @@ impl Picture {
     /// Takes nothing of what is there for the picture of the scene that comes now.
     pub(super) fn forget(&mut self) {
         (self.key, self.reading_key) = (None, None);
+        // It speaks of spheres that the next scene may not have.
+        self.reading = None;
         self.steps.clear();
     }
 

@@ -27,7 +27,7 @@ pub struct Reply {
 }
 
 /// The screen that the picture is made for, in columns and rows.
-const SCREEN: (u16, u16) = (80, 24);
+pub(super) const SCREEN: (u16, u16) = (80, 24);
 /// Columns and rows of a panel as text: panels are longer than a screen, figures are not.
 const ROOM: (u16, u16) = (76, 200);
 const FIGURE: (u16, u16) = (76, 20);
@@ -50,8 +50,13 @@ impl Explorer {
             None => self.scene().name.clone() + "\n",
         };
         text += &(self.facts().sentence(None) + "\n");
+        let message = self.message.take();
+        let refused = message.as_ref().is_some_and(|m| m.warning);
+        if let Some(message) = message {
+            text += &(message.text + "\n");
+        }
         text += "help lists the commands, quit ends.\n";
-        self.said(&text, false)
+        self.said(&text, refused)
     }
 
     /// Whether the next line may be the answer to a question.
@@ -307,16 +312,14 @@ impl Explorer {
                 self.options.glyphs,
             ));
         }
-        let (at, count) = (self.step_at + 1, self.picture.steps.len());
-        format!(
-            "step {at} of {count}: {}\n{}",
-            step.name,
-            without_gaps(&lines)
-        )
+        format!("{}\n{}", self.step_title(), without_gaps(&lines))
     }
 
     /// The picture in characters, marks beside it for the cursor.
     fn picture_in_text(&self) -> String {
+        if self.is_picture_veiled() {
+            return "The picture is hidden while you predict.\n".into();
+        }
         let (size, (x, y)) = (self.size(), self.cursor);
         let (col, row) = self.options.style.cell_of_pixel(x, y);
         let mut text = format!("view of {size} pixels, the cursor on ({x}, {y})\n");
@@ -353,6 +356,7 @@ impl Explorer {
                 .current_step()
                 .map(|s| (self.step_at, s.name.clone(), self.is_hidden())),
             page: self.tour_place(),
+            is_veiled: self.is_predicting(),
             pairs: Vec::new(),
         };
         let options = self.options;
@@ -389,6 +393,8 @@ struct Facts {
     panel: Panel,
     step: Option<(usize, String, bool)>,
     page: Option<(usize, usize)>,
+    /// What the ray found is to be predicted.
+    is_veiled: bool,
     pairs: Vec<(String, String)>,
 }
 
@@ -420,6 +426,10 @@ impl Facts {
             .as_ref()
             .map_or(String::new(), |n| format!(", {n}"));
         let (number, of) = (subject.body + 1, reading.spheres);
+        if self.is_veiled {
+            self.add("sphere", &format!("{number} of {of}{name}"));
+            return;
+        }
         let why = subject.why.words();
         self.add("sphere", &format!("{number} of {of}{name}, {why}"));
         let place = solution
@@ -455,7 +465,7 @@ impl Facts {
             .flat_map(|before| &before.pairs)
             .filter(|(name, _)| {
                 let is_of_ray = ["near", "far", "p"].contains(&name.as_str());
-                is_of_ray && !self.pairs.iter().any(|(n, _)| n == name)
+                is_of_ray && !self.is_veiled && !self.pairs.iter().any(|(n, _)| n == name)
             });
         let news = self.pairs.iter().filter(is_news);
         let news = news.map(|(name, value)| format!("{name} {value}"));

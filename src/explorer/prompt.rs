@@ -10,6 +10,8 @@ const LONGEST: usize = 4096;
 pub struct Line {
     chars: Vec<char>,
     at: usize,
+    /// The text is an old one, which goes when another is typed, and stays when it is edited.
+    is_chosen: bool,
 }
 
 impl Line {
@@ -18,6 +20,19 @@ impl Line {
         let mut line = Self::default();
         line.insert(text);
         line
+    }
+
+    /// A line that holds `text` until another is typed in its place.
+    pub fn chosen(text: &str) -> Self {
+        Self {
+            is_chosen: !text.is_empty(),
+            ..Self::new(text)
+        }
+    }
+
+    /// Whether what is typed takes the place of the text.
+    pub const fn is_chosen(&self) -> bool {
+        self.is_chosen
     }
 
     /// The text.
@@ -32,6 +47,9 @@ impl Line {
 
     /// Types the first line of a text; whatever is no printable character is left out.
     pub fn insert(&mut self, text: &str) {
+        if std::mem::take(&mut self.is_chosen) {
+            *self = Self::default();
+        }
         let first = text.split(['\n', '\r']).next().unwrap_or_default();
         for c in first.chars().filter(|c| !c.is_control()) {
             if self.chars.len() < LONGEST {
@@ -46,7 +64,10 @@ impl Line {
         let is = |name| key.is(name);
         if let Some(c) = key.typed() {
             self.insert(c.encode_utf8(&mut [0; 4]));
-        } else if is("backspace") {
+            return true;
+        }
+        self.is_chosen = false;
+        if is("backspace") {
             if self.at > 0 {
                 self.at -= 1;
                 self.chars.remove(self.at);
@@ -80,5 +101,30 @@ impl Line {
             return false;
         }
         true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn typed(line: &mut Line, keys: &[&str]) -> String {
+        for name in keys {
+            assert!(line.edit(Key::parse(name).expect("a key")), "{name}");
+        }
+        line.text()
+    }
+
+    #[test]
+    fn a_chosen_text_is_typed_over_or_edited() {
+        let over = || Line::chosen("12.5");
+        assert_eq!(typed(&mut over(), &["7", "5"]), "75");
+        assert_eq!(typed(&mut over(), &["backspace", "2"]), "12.2");
+        assert_eq!(typed(&mut over(), &["left", "0"]), "12.05");
+        assert_eq!(typed(&mut over(), &["home", "-"]), "-12.5");
+        let mut pasted = over();
+        pasted.insert("0x1p3");
+        assert_eq!(pasted.text(), "0x1p3");
+        assert_eq!(typed(&mut Line::new("ab"), &["c"]), "abc");
     }
 }

@@ -4,8 +4,8 @@ use super::Explorer;
 use super::act::turn;
 use super::key::Key;
 use super::panel::Panel;
-use crate::explain::{Question, Step};
-use crate::method::Method;
+use crate::explain::{Digits, Landmark, Question, Step, landmarks, number};
+use crate::method::{Method, Precision};
 
 /// A step of the moving point, in radii.
 const SCRUB: f64 = 1.0 / 16.0;
@@ -34,6 +34,21 @@ impl Explorer {
     /// Whether the result of the step shown is kept back.
     pub(super) const fn is_hidden(&self) -> bool {
         (self.prediction.on || self.board) && !self.prediction.revealed
+    }
+
+    /// Whether results are to be predicted, so that nothing else may tell them.
+    pub(super) fn is_predicting(&self) -> bool {
+        self.prediction.on && !self.picture.steps.is_empty()
+    }
+
+    /// Whether the picture still tells what is to be predicted: whether something is seen.
+    pub(super) fn is_picture_veiled(&self) -> bool {
+        let seen = |step: &Step| step.question == Some(Question::Seen);
+        let last = self.picture.steps.iter().position(seen);
+        self.is_predicting()
+            && last.is_some_and(|last| {
+                self.step_at < last || (self.step_at == last && self.is_hidden())
+            })
     }
 
     /// Opens the steps; with steps open, reveals the answer, else goes on.
@@ -111,7 +126,7 @@ impl Explorer {
         };
         if on {
             self.panel = Panel::Steps;
-            self.say("Predict first: results are hidden until you press enter.");
+            self.say("Predict first: each result, the other panels and the picture wait for you.");
         } else {
             self.say("Results are shown again.");
         }
@@ -165,6 +180,33 @@ impl Explorer {
         })
     }
 
+    /// Puts the moving point on the next place of the line that has a name, or the one before.
+    pub(super) fn go_to_landmark(&mut self, forward: bool) {
+        let Some((ray, sphere)) = self.reading().and_then(|r| {
+            let subject = r.subject.as_ref()?;
+            Some((r.ray, subject.sphere))
+        }) else {
+            return self.say("There is no sphere to go along a ray to.");
+        };
+        let places = landmarks(&ray, &sphere);
+        let Some(at) = neighbour(&places, self.moving_t(), forward) else {
+            return;
+        };
+        let Landmark { t, what } = &places[at];
+        self.scrubbed = Some(*t);
+        let shown = number(*t, Precision::Binary64, Digits::Significant(6));
+        let count = places.len();
+        self.say(format!("{} of {count}: t = {shown}, {what}.", at + 1));
+        self.show_moving_point();
+    }
+
+    /// Where the moving point is seen.
+    fn show_moving_point(&mut self) {
+        if self.panel != Panel::Curve {
+            self.panel = Panel::Slice;
+        }
+    }
+
     pub(super) fn scrub(&mut self, steps: f64) {
         let subject = self.reading().and_then(|r| r.subject.as_ref());
         let Some(subject) = subject else {
@@ -179,9 +221,7 @@ impl Explorer {
         if t.is_finite() {
             self.scrubbed = Some(t);
         }
-        if self.panel != Panel::Curve {
-            self.panel = Panel::Slice;
-        }
+        self.show_moving_point();
     }
 
     /// The method that the chosen one is compared with.
@@ -202,5 +242,59 @@ impl Explorer {
         };
         self.other_method = Some(next);
         self.panel = Panel::Compare;
+    }
+}
+
+/// The place after t, or before it, in the ring of all.
+///
+/// A root as the method has it, rounded to binary32, counts as the root.
+fn neighbour(places: &[Landmark], t: f64, forward: bool) -> Option<usize> {
+    let last = places.len().checked_sub(1)?;
+    let here = places.iter().position(|place| place.t == t).or_else(|| {
+        let alike = |place: &Landmark| (place.t as f32).to_bits() == (t as f32).to_bits();
+        places.iter().position(alike)
+    });
+    let next = match (here, forward) {
+        (Some(here), true) => here + 1,
+        (None, true) => places.iter().filter(|place| place.t < t).count(),
+        (Some(here), false) => return Some(here.checked_sub(1).unwrap_or(last)),
+        (None, false) => {
+            let before = places.iter().filter(|place| place.t < t).count();
+            return Some(before.checked_sub(1).unwrap_or(last));
+        }
+    };
+    Some(if next > last { 0 } else { next })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn landmarks_are_a_ring_that_a_rounded_root_belongs_to() {
+        let place = |t: f64| Landmark {
+            t,
+            what: String::new(),
+        };
+        let places = [0.0, 0.1, 0.5, 0.9].map(place);
+        let go = |t, forward| neighbour(&places, t, forward);
+        let rounded = f64::from(0.1_f32);
+        for (t, next, before) in [
+            (-1.0, 0, 3),
+            (0.0, 1, 3),
+            (0.05, 1, 0),
+            (0.1, 2, 0),
+            (rounded, 2, 0),
+            (0.6, 3, 2),
+            (0.9, 0, 2),
+            (7.0, 0, 3),
+        ] {
+            assert_eq!(
+                [go(t, true), go(t, false)],
+                [Some(next), Some(before)],
+                "{t}"
+            );
+        }
+        assert_eq!(neighbour(&[], 0.0, true), None);
     }
 }

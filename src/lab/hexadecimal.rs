@@ -36,7 +36,19 @@ pub fn numbers((ray, sphere): &Problem) -> [f32; 10] {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
+
     use super::*;
+    use crate::method::read;
+
+    proptest! {
+        #[test]
+        fn what_is_written_reads_back(bits: u32) {
+            let x = f32::from_bits(bits);
+            let back = read::binary32(&hexadecimal(x)).unwrap();
+            prop_assert!(back.to_bits() == bits || (x.is_nan() && back.is_nan()));
+        }
+    }
 
     #[test]
     fn writes_what_c_writes() {

@@ -13,6 +13,7 @@ mod haines;
 mod kahan;
 mod number;
 mod q_form;
+pub mod read;
 pub(crate) mod simd;
 mod surd;
 mod tape;
@@ -264,6 +265,23 @@ impl Precision {
         match self {
             Self::Binary32 => f32::MANTISSA_DIGITS,
             Self::Binary64 => f64::MANTISSA_DIGITS,
+        }
+    }
+
+    /// What an error in units of the spacing is counted in: the field's word for binary32, and one
+    /// that can't be taken for it for binary64.
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Self::Binary32 => "ulp",
+            Self::Binary64 => "ulp64",
+        }
+    }
+
+    /// What that unit is, in a few words.
+    pub const fn unit_in_words(self) -> &'static str {
+        match self {
+            Self::Binary32 => "ulp: gap to the next binary32",
+            Self::Binary64 => "ulp64: gap to the next binary64",
         }
     }
 

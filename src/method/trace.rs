@@ -34,8 +34,13 @@ pub struct Measured {
 impl Measured {
     /// The error in units of the spacing at the exact value; none without an exact value.
     pub fn ulps(&self) -> Option<f64> {
+        self.ulps_in(self.precision)
+    }
+
+    /// The error in units of the spacing of another precision at the exact value.
+    pub fn ulps_in(&self, precision: Precision) -> Option<f64> {
         let exact = self.exact.as_ref()?;
-        Some(exact.ulps(self.value, self.precision))
+        Some(exact.ulps(self.value, precision))
     }
 
     /// Whether the number is what it should be, to the last bit there is.
@@ -95,6 +100,14 @@ impl Quantity {
                     worst
                 })
             })
+    }
+
+    /// In what its numbers are held.
+    pub fn precision(&self) -> Precision {
+        match self {
+            Self::Scalar(one) => one.precision,
+            Self::Vector(three) => three[0].precision,
+        }
     }
 
     /// The number, or the components in parentheses, as shortest decimals.
@@ -258,8 +271,8 @@ pub fn write(trace: &Trace, out: &mut impl fmt::Write, signs: Signs, digits: usi
             (Some(ulps), Some(exact)) if ulps != 0.0 => {
                 writeln!(
                     out,
-                    "    exactly {exact}, {} ulp off",
-                    ulps_text(ulps, signs)
+                    "    exactly {exact}, {} off",
+                    error_text(ulps, step.result.precision(), signs)
                 )?;
             }
             (None, _) => writeln!(out, "    exactly, there is none")?,
@@ -278,9 +291,10 @@ pub fn write(trace: &Trace, out: &mut impl fmt::Write, signs: Signs, digits: usi
     Ok(())
 }
 
-/// An error in ulps to three digits.
-pub fn ulps_text(ulps: f64, signs: Signs) -> String {
-    format::binary64(ulps, signs).rounded(3)
+/// An error to three digits, with its unit: that of the precision.
+pub fn error_text(ulps: f64, precision: Precision, signs: Signs) -> String {
+    let count = format::binary64(ulps, signs).rounded(3);
+    format!("{count} {}", precision.unit())
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ use std::fmt;
 use glam::Vec3;
 
 use super::Rgb;
+use crate::method::read;
 
 /// What was found in place of a value, and what was expected there.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -51,13 +52,11 @@ pub enum Number {
 }
 
 impl Number {
-    /// Reads a decimal, rounded once to binary32; a minus sign may be the mathematical one.
+    /// Reads a number in decimal or in hexadecimal, rounded once to binary32.
     pub fn read(self, text: &str) -> Result<f32, Refused> {
         let text = text.trim();
-        let value: f32 = text
-            .replace('−', "-")
-            .parse()
-            .map_err(|_| Refused::new(quoted(text), self.expected()))?;
+        let value =
+            read::binary32(text).ok_or_else(|| Refused::new(quoted(text), self.expected()))?;
         let has_digits = text.contains(|c: char| c.is_ascii_digit());
         if value.is_infinite() && has_digits {
             return Err(Refused::new(shortened(text), WITHIN_RANGE));
@@ -188,7 +187,13 @@ mod tests {
 
     #[test]
     fn numbers_are_read_as_people_type_them() {
-        for (text, value) in [(" 3 ", 3.0), ("−2.5", -2.5), (".5", 0.5), ("1e-3", 0.001)] {
+        for (text, value) in [
+            (" 3 ", 3.0),
+            ("−2.5", -2.5),
+            (".5", 0.5),
+            ("1e-3", 0.001),
+            ("0x1.8p3", 12.0),
+        ] {
             assert_eq!(Number::Coordinate.read(text), Ok(value), "{text}");
         }
     }
@@ -215,6 +220,16 @@ mod tests {
                 FieldOfView,
                 "180",
                 "found 180, expected an angle in degrees above 0 and below 180",
+            ),
+            (
+                Radius,
+                "0x1p200",
+                "found 0x1p200, expected a number that binary32 can hold, at most 3.4028235e38 in size",
+            ),
+            (
+                Coordinate,
+                "0x1.8q3",
+                "found \"0x1.8q3\", expected a finite number",
             ),
             (
                 Radius,

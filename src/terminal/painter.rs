@@ -3,7 +3,10 @@
 //! ratatui's own backend for crossterm writes a cursor position for each run of changed cells and
 //! both colours wherever one changes. Over a slow link bytes are time, so this one writes the
 //! cheapest that shows the same cells: no colour that does not show, the shortest way to the next
-//! cell, the cells of a short gap again rather than a jump over it.
+//! cell, the cells of a short gap again rather than a jump over it; and row by row or ink by ink,
+//! whichever takes less.
+
+use std::collections::HashMap;
 
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Position;
@@ -94,17 +97,17 @@ impl Painter {
             self.shown = Buffer::empty(next.area);
             (self.at, self.ink) = (None, Ink::default());
         }
-        let mut pen = Pen {
-            out: &mut self.out,
+        let rows: Vec<_> = changed_rows(&self.shown, next, limits).collect();
+        let start_of_rows = Pen {
+            out: Vec::new(),
             at: self.at,
             ink: self.ink,
         };
-        for row in changed_rows(&self.shown, next, limits) {
-            pen.paint(&row);
-        }
+        let mut pen = start_of_rows.shortest(&rows);
         if let Some(position) = cursor {
             pen.go(position, &[]);
         }
+        self.out.extend_from_slice(&pen.out);
         (self.at, self.ink) = (pen.at, pen.ink);
         if self.lost || cursor.is_some() != self.cursor_visible {
             self.cursor_visible = cursor.is_some();
@@ -188,13 +191,36 @@ impl<'a> Look<'a> {
 }
 
 /// What a character wants the pen to be; what does not show on it is left open.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 struct Want {
     fg: Option<Color>,
     bg: Option<Color>,
     modifier: Modifier,
     /// Which modifiers matter.
     touches: Modifier,
+}
+
+impl Want {
+    /// What suits both, if anything does.
+    fn and(self, other: Self) -> Option<Self> {
+        let one_of = |a: Option<Color>, b: Option<Color>| match (a, b) {
+            (Some(a), Some(b)) if a != b => None,
+            _ => Some(a.or(b)),
+        };
+        let differ = (self.modifier ^ other.modifier) & self.touches & other.touches;
+        differ.is_empty().then_some(())?;
+        Some(Self {
+            fg: one_of(self.fg, other.fg)?,
+            bg: one_of(self.bg, other.bg)?,
+            modifier: (self.modifier & self.touches) | (other.modifier & other.touches),
+            touches: self.touches | other.touches,
+        })
+    }
+
+    /// Whether only one ink suits.
+    fn is_settled(self) -> bool {
+        self.fg.is_some() && self.bg.is_some() && self.touches.is_all()
+    }
 }
 
 /// How the terminal writes now.
@@ -210,6 +236,19 @@ impl Ink {
         self.after(want) == self
     }
 
+    /// About how many bytes the way to that ink takes.
+    fn distance(self, want: Want) -> u8 {
+        let after = self.after(want);
+        let color = |one, other| if one == other { 0 } else { 8 };
+        color(self.fg, after.fg)
+            + color(self.bg, after.bg)
+            + if self.modifier == after.modifier {
+                0
+            } else {
+                3
+            }
+    }
+
     fn after(self, want: Want) -> Self {
         Self {
             fg: want.fg.unwrap_or(self.fg),
@@ -220,8 +259,9 @@ impl Ink {
 }
 
 /// Writes at a place with an ink.
-struct Pen<'a> {
-    out: &'a mut Vec<u8>,
+#[derive(Debug, Clone)]
+struct Pen {
+    out: Vec<u8>,
     /// Where the terminal's cursor is, if that is known.
     at: Option<Position>,
     ink: Ink,
@@ -267,20 +307,116 @@ fn looks(buffer: &Buffer, y: u16, limits: Limits) -> impl Iterator<Item = Look<'
     })
 }
 
-impl Pen<'_> {
-    /// Paints the changed cells of a row.
-    fn paint(&mut self, row: &Row<'_>) {
-        let end = row.start.x + row.after.len() as u16;
-        let pairs = row.before.iter().zip(&row.after).enumerate();
-        for (i, (_, &look)) in pairs.filter(|(_, (before, after))| before != after) {
-            if look == Look::Covered {
+/// Changed cells beside each other that one ink can write.
+#[derive(Debug, Clone, Copy)]
+struct Stretch {
+    /// Index of the row.
+    row: usize,
+    /// The first column, and the one after the last.
+    from: usize,
+    to: usize,
+    want: Want,
+}
+
+/// The changed cells of all rows in stretches, from the top left on.
+fn stretches(rows: &[Row<'_>]) -> Vec<Stretch> {
+    let mut out: Vec<Stretch> = Vec::new();
+    for (row, looks) in rows.iter().enumerate() {
+        let pairs = looks.before.iter().zip(&looks.after).enumerate();
+        for (x, (_, look)) in pairs.filter(|(_, (before, after))| before != after) {
+            let Some((symbol, want)) = look.written() else {
                 continue;
+            };
+            let to = x + symbol.width().max(1);
+            let last = out
+                .last_mut()
+                .filter(|last| last.row == row && last.to == x);
+            match last.and_then(|last| Some((last.want.and(want)?, last))) {
+                Some((both, last)) => (last.to, last.want) = (to, both),
+                None => out.push(Stretch {
+                    row,
+                    from: x,
+                    to,
+                    want,
+                }),
             }
+        }
+    }
+    out
+}
+
+/// The stretches in the order of their inks, those of an ink from the top left on. What several inks
+/// can write goes with the nearest in its row, else with any.
+fn by_ink(stretches: &[Stretch], mut ink: Ink) -> Vec<Stretch> {
+    let mut passes: Vec<(Want, Vec<Stretch>)> = Vec::new();
+    let mut places: HashMap<Want, usize> = HashMap::new();
+    for stretch in stretches.iter().filter(|s| s.want.is_settled()) {
+        let place = *places.entry(stretch.want).or_insert(passes.len());
+        if place == passes.len() {
+            passes.push((stretch.want, Vec::new()));
+        }
+        passes[place].1.push(*stretch);
+    }
+    for row in stretches.chunk_by(|one, other| one.row == other.row) {
+        for stretch in row.iter().filter(|s| !s.want.is_settled()) {
+            let fits = |want: Want| want.and(stretch.want).is_some();
+            let gap = |s: &&Stretch| (s.from.abs_diff(stretch.to)).min(s.to.abs_diff(stretch.from));
+            let beside = row.iter().filter(|s| s.want.is_settled() && fits(s.want));
+            let near = beside.min_by_key(gap).and_then(|s| places.get(&s.want));
+            let any = || passes.iter().position(|&(want, _)| fits(want));
+            match near.copied().or_else(any) {
+                Some(place) => passes[place].1.push(*stretch),
+                None => passes.push((stretch.want, vec![*stretch])),
+            }
+        }
+    }
+    let mut out = Vec::with_capacity(stretches.len());
+    while let Some(next) = (0..passes.len()).min_by_key(|&i| ink.distance(passes[i].0)) {
+        let (want, mut pass) = passes.swap_remove(next);
+        pass.sort_unstable_by_key(|s| (s.row, s.from));
+        out.extend(pass);
+        ink = ink.after(want);
+    }
+    out
+}
+
+impl Pen {
+    /// This pen once all that changed is painted, in the cheaper of two orders: row by row, or ink by
+    /// ink.
+    fn shortest(self, rows: &[Row<'_>]) -> Self {
+        let (plain, wide): (Vec<_>, Vec<_>) = stretches(rows).into_iter().partition(|stretch| {
+            let Row { before, after, .. } = &rows[stretch.row];
+            !before
+                .iter()
+                .chain(after)
+                .any(|look| *look == Look::Covered)
+        });
+        let mut start = self;
+        // Of two halves of a wide character none is written without the other.
+        start.paint(&wide, rows);
+        let mut by_row = start.clone();
+        by_row.paint(&plain, rows);
+        let mut by_pass = start;
+        by_pass.paint(&by_ink(&plain, by_pass.ink), rows);
+        if by_pass.out.len() < by_row.out.len() {
+            by_pass
+        } else {
+            by_row
+        }
+    }
+
+    /// Paints stretches in this order.
+    fn paint(&mut self, stretches: &[Stretch], rows: &[Row<'_>]) {
+        for stretch in stretches {
+            let row = &rows[stretch.row];
+            let end = row.start.x + row.after.len() as u16;
             self.go(
-                Position::new(row.start.x + i as u16, row.start.y),
+                Position::new(row.start.x + stretch.from as u16, row.start.y),
                 &row.after,
             );
-            self.write(look);
+            for look in &row.after[stretch.from..stretch.to.min(row.after.len())] {
+                self.write(*look);
+            }
             if self.at.is_some_and(|at| at.x >= end) {
                 // The cursor stays on the last column, or is past it: terminals differ.
                 self.at = None;

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 
-use super::super::complain;
+use super::super::{complain, shown};
 use super::input::number;
 use super::rows::{LONGEST, Row, Rows, push_field};
 use crate::geometry::{Ray, Sphere};
@@ -61,14 +61,6 @@ impl fmt::Display for Error {
             }
             Self::Header(path, reason) => write!(f, "{}: {reason}", shown(path)),
         }
-    }
-}
-
-fn shown(path: &Path) -> String {
-    if path == Path::new("-") {
-        "standard input".to_owned()
-    } else {
-        path.display().to_string()
     }
 }
 

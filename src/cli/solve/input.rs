@@ -3,14 +3,12 @@
 use glam::Vec3;
 
 use crate::geometry::{Ray, Sphere};
+use crate::method::read;
 
-/// A decimal rounded once to binary32; refused with its text if it is none, or beyond the range.
+/// A number rounded once to binary32; refused with its text if it is none, or beyond the range.
 pub(in crate::cli) fn number(field: &[u8]) -> Result<f32, String> {
     let field = field.trim_ascii();
-    let number = str::from_utf8(field)
-        .ok()
-        .and_then(|text| text.parse().ok());
-    match number {
+    match str::from_utf8(field).ok().and_then(read::binary32) {
         Some(number) if f32::is_finite(number) => Ok(number),
         number => Err(refusal(field, number)),
     }
@@ -23,7 +21,7 @@ fn refusal(field: &[u8], number: Option<f32>) -> String {
     let has_digits = text.contains(|c: char| c.is_ascii_digit());
     match number {
         None if text.is_empty() => "nothing there; expected a number".to_owned(),
-        None => format!("`{shown}` is not a number; expected one like -1.5e3"),
+        None => format!("`{shown}` is not a number; expected one like -1.5e3 or 0x1.8p3"),
         Some(x) if x.is_infinite() && has_digits => {
             format!("{shown} is past the range of binary32; expected at most 3.4028235e38")
         }

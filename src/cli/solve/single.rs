@@ -73,8 +73,8 @@ fn write_answer(out: &mut String, trace: &Trace, signs: Signs) -> fmt::Result {
                     if root.is_correctly_rounded() {
                         return writeln!(out, "{name} = {value}, {exact} rounded once");
                     }
-                    let ulps = trace::ulps_text(ulps, signs);
-                    writeln!(out, "{name} = {value}, {ulps} ulp from {exact}")
+                    let off = trace::error_text(ulps, root.precision, signs);
+                    writeln!(out, "{name} = {value}, {off} from {exact}")
                 }
                 None => writeln!(out, "{name} = {value}, but there is no such root"),
             }

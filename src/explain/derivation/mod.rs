@@ -65,6 +65,8 @@ pub struct Step {
     pub first_heavy: bool,
     /// What a student may be asked before the result is shown.
     pub question: Option<Question>,
+    /// The numbers tell the result already.
+    pub numbers_tell: bool,
     /// The number whose bits are worth a look.
     pub number: Option<Measured>,
 }
@@ -124,9 +126,24 @@ pub fn derivation(reading: &Reading, scene: &Scene, rays: &Rays, drawn: &Drawn) 
         return Vec::new();
     };
     let mut steps = ray::steps(reading, subject, scene, rays);
-    steps.extend(quadratic_steps(&subject.trace));
+    let mut quadratic = quadratic_steps(&subject.trace);
+    // The sign of Δ says how many roots there are before one is worked out.
+    let roots = first_of_roots(&subject.trace);
+    quadratic.insert(roots, seen::count_step(subject));
+    steps.extend(quadratic);
     steps.extend(seen::steps(reading, subject, scene, drawn));
     steps
+}
+
+/// The place of the first step of the method that is for the roots; its end if there is none.
+fn first_of_roots(trace: &Trace) -> usize {
+    const ROOTS: [&str; 6] = ["b", "√D", "√Δ", "q", "near₆₄", "near"];
+    let steps = &trace.steps;
+    let decides = |step: &trace::Step| is_discriminant(step.symbol, trace.method);
+    let from = steps.iter().position(decides).unwrap_or(0);
+    let is_for_roots = |step: &trace::Step| ROOTS.contains(&step.symbol);
+    let after = steps[from..].iter().position(is_for_roots);
+    after.map_or(steps.len(), |after| from + after)
 }
 
 const DIGITS: Digits = Digits::Significant(7);
@@ -172,7 +189,17 @@ impl Step {
             losses: Vec::new(),
             first_heavy: false,
             question: None,
+            numbers_tell: false,
             number: None,
+        }
+    }
+
+    /// The numbers, as far as they don't tell a result that is kept back.
+    pub fn numbers_beside(&self, hidden: bool) -> &str {
+        if hidden && self.numbers_tell {
+            ""
+        } else {
+            &self.numbers
         }
     }
 }
@@ -189,6 +216,8 @@ fn quadratic_steps(trace: &Trace) -> Vec<Step> {
         losses: step.losses.iter().map(|l| l.sentence(signs)).collect(),
         first_heavy: heavy == Some(at),
         question: is_discriminant(step.symbol, trace.method).then_some(Question::Sign),
+        // A later stage of `exact` says what it has settled.
+        numbers_tell: step.symbol.contains(", "),
         number: step.result.parts().first().cloned(),
         ..Step::plain(step.symbol, step.why, step.formula)
     };
@@ -201,8 +230,8 @@ fn exact(result: &Quantity) -> Option<String> {
     let ulps = result.ulps().filter(|&ulps| ulps != 0.0)?;
     let exact = result.exact_text(12, signs)?;
     Some(format!(
-        "{exact}, {} ulp off",
-        trace::ulps_text(ulps, signs)
+        "{exact}, {} off",
+        trace::error_text(ulps, result.precision(), signs)
     ))
 }
 

@@ -16,7 +16,7 @@ pub(super) fn steps(
     scene: &Scene,
     drawn: &Drawn,
 ) -> Vec<Step> {
-    let mut steps = vec![count_step(subject), seen_step(subject)];
+    let mut steps = vec![seen_step(subject)];
     if let Some(sight) = &subject.sight {
         steps.push(point_step(reading, subject, sight));
         steps.push(check_step(subject, sight.point));
@@ -30,7 +30,7 @@ pub(super) fn steps(
     steps
 }
 
-fn count_step(subject: &Subject) -> Step {
+pub(super) fn count_step(subject: &Subject) -> Step {
     let result = match subject.solution.class {
         Class::Miss => "Δ < 0: no point, the line misses",
         Class::Tangent => "Δ = 0: one point, the line touches",
@@ -64,27 +64,28 @@ fn count_step(subject: &Subject) -> Step {
 
 fn seen_step(subject: &Subject) -> Step {
     let [near, far] = [subject.solution.near, subject.solution.far].map(n32);
-    let (numbers, result, code) = match subject.solution.place() {
+    let (result, code) = match subject.solution.place() {
         Some(Place::Hit) => (
-            format!("0 < {near}"),
-            format!("hit: the near point is seen, t = {near}"),
+            format!("0 < {near}, a hit: the near point is seen, t = {near}"),
             "Place::Hit => Some(self.near),",
         ),
         Some(Place::Inside) => (
-            format!("{near} ≤ 0 < {far}"),
-            format!("inside: the far point is seen, t = {far}"),
+            format!("{near} ≤ 0 < {far}, inside: the far point is seen, t = {far}"),
             "Place::Inside => Some(self.far),",
         ),
         Some(Place::Behind) => (
-            format!("{far} ≤ 0"),
-            "behind: the line meets the sphere, the ray does not".into(),
+            format!("{far} ≤ 0, behind: the line meets the sphere, the ray does not"),
             "Place::Behind => None,",
         ),
         None => (
-            "no root".into(),
             "nothing of this sphere is seen".into(),
             "if !self.class.meets() {",
         ),
+    };
+    let numbers = match subject.solution.class {
+        Class::Secant => format!("near = {near}, far = {far}"),
+        Class::Tangent => format!("t = {near}"),
+        Class::Miss | Class::Nan => "no root".into(),
     };
     Step {
         numbers,

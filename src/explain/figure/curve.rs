@@ -16,6 +16,8 @@ use super::section::{Anchor, Section, Spot};
 use crate::explain::{Glyphs, Line, Role, Subject};
 use crate::geometry::Ray;
 use crate::method::Class;
+use crate::method::format::Signs;
+use crate::method::trace::error_text;
 
 /// The curve f(t) with its roots and its vertex, t = 0, and the value at `t`.
 ///
@@ -258,7 +260,7 @@ impl Plot {
             let on = self.view.axis.on(section, spot);
             let f = match on {
                 Some((piece, _)) => section.power(piece.anchor, section.offset(spot, piece.anchor)),
-                None => section.value(section.position(spot)),
+                None => section.value(spot),
             };
             let y = self.view.height(f);
             let (x, sign) = match self.view.axis.place(section, spot) {
@@ -293,7 +295,7 @@ impl Plot {
             Class::Miss | Class::Nan => marks.push(point("V", Anchor::Foot, Sign::Cross)),
         }
         if t.is_finite() {
-            let along = Spot::Along(t * section.speed);
+            let along = section.spot(t);
             marks.push(mark("p", along, Sign::Moved, Ink::Scrub));
         }
         marks
@@ -373,13 +375,34 @@ fn caption(section: &Section, subject: &Subject, t: f64, glyphs: Glyphs) -> Capt
         }
     }
     if t.is_finite() {
-        let f = section.value(t * section.speed);
+        let f = section.value(section.spot(t));
         caption.add("p", "", &format!("f({}) = {}", show(t), show(f)));
+        if f != 0.0
+            && let Some(why) = not_zero(subject, t)
+        {
+            caption.say(Role::Faint, &why);
+        }
     }
     if section.class.meets() && section.near < 0.0 {
         caption.say(Role::Faint, "dotted: t < 0, behind p0");
     }
     caption
+}
+
+/// Why f is not 0 at a root as the method has it; none if t is none of them.
+fn not_zero(subject: &Subject, t: f64) -> Option<String> {
+    let trace = &subject.trace;
+    let roots = [&trace.near, &trace.far].into_iter().flatten();
+    let root = roots.into_iter().find(|root| root.value == t)?;
+    Some(if root.is_correctly_rounded() {
+        "not 0: this t is the root rounded to the 24 bits of a binary32".into()
+    } else {
+        let off = root.ulps().map_or_else(
+            || "none".to_owned(),
+            |ulps| error_text(ulps, root.precision, Signs::Typographic) + " off",
+        );
+        format!("not 0: the root by {} is {off}", trace.method)
+    })
 }
 
 /// At² + Bt + C in numbers, and whether it equals f or, with fewer digits, nearly so.

@@ -12,6 +12,7 @@ mod caption;
 #[cfg(test)]
 mod cases;
 mod curve;
+mod landmark;
 mod mark;
 mod section;
 mod slice;
@@ -24,6 +25,7 @@ mod work;
 pub use bits::{Float, bits};
 pub use canvas::Ink;
 pub use curve::curve;
+pub use landmark::{Landmark, landmarks};
 pub use slice::slice;
 pub use turning::{Setting, turning};
 pub use work::work;

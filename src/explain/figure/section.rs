@@ -127,6 +127,20 @@ impl Section {
         divide(power, from_center + self.radius)
     }
 
+    /// t of a place that has a name.
+    pub(super) fn t(&self, anchor: Anchor) -> f64 {
+        self.position(Spot::At(anchor)) / self.speed + 0.0
+    }
+
+    /// The place at t: one that has a name where it is at that very t, so that nothing is rounded
+    /// there.
+    pub(super) fn spot(&self, t: f64) -> Spot {
+        [Anchor::Near, Anchor::Far, Anchor::Foot, Anchor::Start]
+            .into_iter()
+            .find(|&anchor| self.t(anchor).to_bits() == t.to_bits())
+            .map_or(Spot::Along(t * self.speed), Spot::At)
+    }
+
     /// From p0 to a place, in lengths.
     pub(super) fn position(&self, spot: Spot) -> f64 {
         match spot {
@@ -182,9 +196,8 @@ impl Section {
         }
     }
 
-    /// f at a place so many lengths from p0, measured from the anchor nearest to it.
-    pub(super) fn value(&self, length: f64) -> f64 {
-        let spot = Spot::Along(length);
+    /// f at a place, measured from the anchor nearest to it.
+    pub(super) fn value(&self, spot: Spot) -> f64 {
         let away = |&anchor: &Anchor| self.offset(spot, anchor).abs();
         [Anchor::Near, Anchor::Foot, Anchor::Far]
             .into_iter()

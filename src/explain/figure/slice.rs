@@ -282,7 +282,7 @@ impl Drawing {
         }
         marks.push(point("c", foot, -section.distance, Sign::Center));
         if t.is_finite() {
-            let along = Spot::Along(t * section.speed);
+            let along = section.spot(t);
             marks.push(mark("p", along, 0.0, Sign::Moved, Ink::Scrub));
         }
         marks
