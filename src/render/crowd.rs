@@ -114,8 +114,8 @@ impl Lens {
             middle: size.map(|s| ((s - 1.0) / 2.0) as f32),
             last: size.map(|s| (s - 1.0) as f32),
             perspective: rays.perspective,
-            // Up to the next number, and more.
-            spread: (projector.spread * (1.0 + f64::from(f32::EPSILON))) as f32,
+            // What they start off by is 2⁻²⁴ of where they start at most; rounded up, and more.
+            spread: (projector.spread + 2.0 * projector.origin_error) as f32,
             origin_error: 2.0 * projector.origin_error as f32,
         }
     }
