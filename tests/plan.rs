@@ -10,6 +10,11 @@ use rayscope::method::Method;
 use rayscope::render::{Counts, Frame, Image, Look, Style, View};
 use rayscope::scene::{Body, Builtin, Camera, PixelShape, Projection, Rays, Scene, Size};
 
+/// So many cases, or as many as `RAYSCOPE_FRAMES` asks for.
+fn cases(usual: u32) -> u32 {
+    std::env::var("RAYSCOPE_FRAMES").map_or(usual, |n| n.parse().expect("a number of cases"))
+}
+
 fn body(center: [f32; 3], radius: f32) -> Body {
     Body {
         sphere: Sphere::new(center.into(), radius).expect("a sphere"),
@@ -451,7 +456,7 @@ fn any_body() -> impl Strategy<Value = Body> {
 
 proptest! {
     #![proptest_config(ProptestConfig {
-        cases: 120,
+        cases: cases(120),
         failure_persistence: None,
         ..ProptestConfig::default()
     })]
@@ -459,7 +464,7 @@ proptest! {
     /// The frame keeps what it can from the one before; that changes no bit either.
     #[test]
     fn what_is_kept_from_frame_to_frame_changes_no_bit(
-        bodies in prop::collection::vec(any_body(), 1..12),
+        bodies in prop::collection::vec(any_body(), 1..40),
         steps in prop::collection::vec(any_step(), 1..8),
         perspective in any::<bool>(),
         (width, height) in (1_u32..45, 1_u32..30),

@@ -10,6 +10,11 @@ use rayscope::render::{
 };
 use rayscope::scene::{Body, Camera, Light, PixelShape, Projection, Rays, Scene, Size};
 
+/// So many cases, or as many as `RAYSCOPE_FRAMES` asks for.
+fn cases(usual: u32) -> u32 {
+    std::env::var("RAYSCOPE_FRAMES").map_or(usual, |n| n.parse().expect("a number of cases"))
+}
+
 fn body(center: [f32; 3], radius: f32) -> Body {
     Body {
         sphere: Sphere::new(center.into(), radius).expect("a sphere"),
@@ -494,7 +499,7 @@ fn assert_same(scene: &Scene, size: Size, shape: PixelShape) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(500))]
+    #![proptest_config(ProptestConfig::with_cases(cases(500)))]
 
     #[test]
     fn what_is_left_out_changes_no_bit(
