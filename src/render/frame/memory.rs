@@ -181,11 +181,11 @@ impl Boxes {
     fn find(&self, part: Bounds, found: &mut Vec<u32>) {
         let mut here = [0; BLOCK];
         for first in (0..self.len()).step_by(BLOCK) {
-            let block = first..self.len().min(first + BLOCK);
-            let [left, right] = [&self.left[block.clone()], &self.right[block.clone()]];
-            let [top, bottom] = [&self.top[block.clone()], &self.bottom[block]];
+            let length = BLOCK.min(self.len() - first);
+            let [left, right, top, bottom] = [&self.left, &self.right, &self.top, &self.bottom]
+                .map(|ends| &ends[first..first + length]);
             let mut any = 0;
-            for i in 0..left.len() {
+            for i in 0..length {
                 here[i] = i16::from(left[i] <= part.right)
                     & i16::from(right[i] >= part.left)
                     & i16::from(top[i] <= part.bottom)
@@ -193,7 +193,7 @@ impl Boxes {
                 any |= here[i];
             }
             if any != 0 {
-                let numbered = (first as u32..).zip(&here[..left.len()]);
+                let numbered = (first as u32..).zip(&here[..length]);
                 found.extend(numbered.filter_map(|(number, &is)| (is != 0).then_some(number)));
             }
         }
