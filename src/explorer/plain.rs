@@ -13,6 +13,7 @@ use super::mode::{Mode, Purpose, Question};
 use super::panel::Panel;
 use super::{Explorer, Request};
 use crate::explain::{self, Digits, Line, Reading, StepLook, Subject};
+use crate::geometry::Decimal;
 use crate::method::{Class, Precision};
 
 /// What is said to a line.
@@ -338,12 +339,7 @@ impl Explorer {
         let fields = Field::of(self.scene(), self.selected).into_iter();
         let values = fields.filter_map(|f| Some((f.name(), f.get(self.scene(), self.selected)?)));
         let lines: Vec<_> = values
-            .map(|(name, value)| {
-                format!(
-                    "{name} {value}
-"
-                )
-            })
+            .map(|(name, value)| format!("{name} {}\n", Decimal(value)))
             .collect();
         lines.concat()
     }
