@@ -70,8 +70,10 @@ impl Explorer {
         matches!(self.mode, Mode::Ask(Question::Quit))
     }
 
-    /// Puts a question off, since nobody is there to answer it.
+    /// Puts a question off, since nobody is there to answer it, and with it what is said to a person
+    /// who has just come.
     pub fn put_off(&mut self) {
+        self.message = None;
         if self.is_asking() {
             self.mode = Mode::Normal;
         }
