@@ -49,13 +49,52 @@ impl Sphere {
         finite_vector("c", center)?;
         finite("r", radius)?;
         if radius < 0.0 {
-            return Err(Invalid::new("r", radius, "a radius of zero or more"));
+            return Err(Invalid::new(
+                "r",
+                Decimal(radius),
+                "a radius of zero or more",
+            ));
         }
         // −0 is accepted as the zero it equals, and kept out of everything that prints.
         Ok(Self {
             center,
             radius: radius + 0.0,
         })
+    }
+}
+
+/// The shortest decimal that reads back as the same binary32, as scene files and people spell it: very
+/// large and very small numbers have an exponent.
+#[derive(Debug, Clone, Copy)]
+pub struct Decimal(pub f32);
+
+impl fmt::Display for Decimal {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        /// Readers of TOML need not accept integers from 2⁶³ on; zeros before that are no help.
+        const PLAIN: std::ops::Range<f32> = 1e-5..1e15;
+        let value = self.0;
+        if value == 0.0 && value.is_sign_negative() {
+            // As an integer, −0 would lose its sign.
+            write!(f, "-0.0")
+        } else if value == 0.0 || PLAIN.contains(&value.abs()) {
+            write!(f, "{value}")
+        } else {
+            write!(f, "{value:e}")
+        }
+    }
+}
+
+/// Such decimals in square brackets.
+#[derive(Debug, Clone, Copy)]
+pub struct List<const N: usize>(pub [f32; N]);
+
+impl<const N: usize> fmt::Display for List<N> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (n, &component) in self.0.iter().enumerate() {
+            let before = if n == 0 { "[" } else { ", " };
+            write!(f, "{before}{}", Decimal(component))?;
+        }
+        write!(f, "]")
     }
 }
 
@@ -98,7 +137,7 @@ fn finite(field: &str, value: f32) -> Result<(), Invalid> {
     if value.is_finite() {
         Ok(())
     } else {
-        Err(Invalid::new(field, value, "a finite number"))
+        Err(Invalid::new(field, Decimal(value), "a finite number"))
     }
 }
 
@@ -115,6 +154,24 @@ fn finite_vector(name: &str, v: Vec3) -> Result<(), Invalid> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn decimals_are_short_and_plain_where_that_is_short() {
+        for (value, text) in [
+            (10.0, "10"),
+            (-0.1, "-0.1"),
+            (16_777_216.0, "16777216"),
+            (0.0, "0"),
+            (-0.0, "-0.0"),
+            (1e-5, "0.00001"),
+            (1e-7, "1e-7"),
+            (1e30, "1e30"),
+            (-f32::MAX, "-3.4028235e38"),
+            (f32::from_bits(1), "1e-45"),
+        ] {
+            assert_eq!(Decimal(value).to_string(), text);
+        }
+    }
 
     #[test]
     fn refuses_what_is_no_ray_or_sphere_by_name() {

@@ -258,3 +258,168 @@ fn a_locale_without_utf_8_gets_ascii_and_no_control_characters() {
     assert_eq!(odd, None);
     assert_eq!(output.status.code(), Some(0));
 }
+
+/// Flags with absurd values, and a part of the sentence that each gets.
+const ABSURD: &[(&str, &str)] = &[
+    ("seed --plain --t nan", "--t <T>': expected a finite number"),
+    (
+        "seed --plain --t 0x1.8q",
+        "--t <T>': expected a finite number",
+    ),
+    ("seed --plain --step 99", "--step: found “99”"),
+    ("seed --plain --step none", "--step: found “none”"),
+    (
+        "seed --plain --cursor 40,0",
+        "--cursor 40,0: expected a pixel",
+    ),
+    (
+        "seed --plain --cursor -1,0",
+        "--cursor <X,Y>': expected a column",
+    ),
+    ("seed --plain --sphere 0", "--sphere 0: expected a sphere"),
+    ("seed --plain --sphere -1", "--sphere"),
+    ("seed --plain --shown 7", "--shown 7: expected a sphere"),
+    (
+        "seed --plain --set radius=nan",
+        "--set radius=nan: radius is",
+    ),
+    ("seed --plain --set radius=-1", "--set: radius is -1"),
+    (
+        "seed --plain --set size=1",
+        "--set size=1: “size” is no key",
+    ),
+    (
+        "seed --plain --set extent.width=1e38",
+        "extent is [1e38, 40]",
+    ),
+    ("seed --plain --aspect nan", "--aspect <ASPECT>': expected"),
+    ("seed --plain --size 9x9", "--cursor"),
+    ("seed --plain --compare none", "'--compare <METHOD>'"),
+    (
+        "tour 1 --plain --page 0",
+        "--page 0: expected a page from 1 to 4",
+    ),
+    (
+        "tour 1 --plain --page x",
+        "--page <N>': expected a whole number",
+    ),
+    (
+        "tour --list --page 2",
+        "'--list' cannot be used with '--page",
+    ),
+    ("tour 4 --plain --step 99", "--step: found “99”"),
+    ("print seed --pixel 40,0", "--pixel 40,0: expected a pixel"),
+    (
+        "print seed --pixel -1,0",
+        "--pixel <X,Y>': expected a column",
+    ),
+    (
+        "print seed --style seed --view depth",
+        "--view depth: the style seed",
+    ),
+    ("print seed --steps", "--pixel"),
+    ("print seed --size 0x9", "--size <WxH>': expected a width"),
+    ("print seed --aspect inf", "--aspect <ASPECT>': expected"),
+    ("plan seed --sphere 9", "--sphere 9: expected a sphere"),
+    (
+        "plan seed --sphere x",
+        "--sphere <N>': expected a whole number",
+    ),
+    (
+        "plan seed --style seed --view depth",
+        "--view depth: the style seed",
+    ),
+    (
+        "worksheet seed --seed 1e9",
+        "--seed <N>': expected a whole number",
+    ),
+    (
+        "worksheet seed --seed -1",
+        "--seed <N>': expected a whole number",
+    ),
+    ("worksheet seed --count 0", "from 1 to 100"),
+    ("bench --seed x", "--seed <N>': expected a whole number"),
+    ("bench --rays 1e3", "from 1 to 10000000"),
+    ("bench --frames --counts 0", "from 1 to 3000000"),
+    ("bench --family none", "'--family <NAMES>'"),
+    ("stress --rays -5", "from 1 to 1000000"),
+    ("stress --dial none", "'--dial <NAMES>'"),
+    (
+        "solve --ray 0,0,0,0,0,1 --sphere 0,0,0,0x1",
+        "--sphere, r: `0x1` is not a number",
+    ),
+    (
+        "solve --ray 0,0,0,0,0,1 --sphere 0,0,0,-1",
+        "--sphere: r is -1",
+    ),
+    (
+        "solve --ray 0,0,0,0,0,1 --sphere 0,0,0,1 --batch x",
+        "--batch",
+    ),
+    ("grade /nowhere", "/nowhere: "),
+];
+
+#[test]
+fn no_flag_is_passed_over_in_silence() {
+    let home = tempfile::tempdir().unwrap();
+    for (line, words) in ABSURD {
+        let words_of: Vec<_> = line.split(' ').collect();
+        let Output {
+            status,
+            stdout,
+            stderr,
+        } = output(rayscope(home.path(), &words_of), "");
+        let said = String::from_utf8(stderr).expect("text");
+        assert!(matches!(status.code(), Some(1 | 2)), "{line}: {status}");
+        assert!(said.contains(words), "{line}: {said}");
+        assert!(!said.contains("panicked") && stdout.is_empty(), "{line}");
+    }
+}
+
+#[test]
+fn whoever_reads_no_more_hears_no_complaint() {
+    use std::fmt::Write as _;
+    use std::io::Read;
+
+    let home = tempfile::tempdir().unwrap();
+    let mut csv = String::from("ox,oy,oz,dx,dy,dz,cx,cy,cz,r\n");
+    let mut script = String::new();
+    for i in 0..20_000 {
+        // Writing to a string does not fail.
+        let _ = writeln!(csv, "{i},0,-3,0,0,1,{i},0,0,1");
+        script += "show\n";
+    }
+    fs::write(home.path().join("m.csv"), csv).unwrap();
+    for line in [
+        "solve --batch m.csv",
+        "print crowd --size 2000x2000 --style ascii --color true",
+        "worksheet trio --count 100",
+        "scenes crowd",
+        "completions bash",
+        "bench --quick --rays 20 --format json",
+        "stress --quick --rays 2 --format csv",
+        "plan trio --format json",
+        "seed --plain",
+    ] {
+        let words: Vec<_> = line.split(' ').collect();
+        let mut child = rayscope(home.path(), &words).spawn().expect("the program");
+        let mut stdin = child.stdin.take().expect("its input");
+        let script = script.clone();
+        let writer = std::thread::spawn(move || stdin.write_all(script.as_bytes()));
+        let mut stdout = child.stdout.take().expect("its output");
+        // As `head -1` does: what there is first, and then nothing more.
+        let mut first = [0; 64];
+        let read = stdout.read(&mut first).expect("a beginning");
+        drop(stdout);
+        let output = child.wait_with_output().expect("its end");
+        // A script that nobody hears is not read to its end.
+        let _ = writer.join().expect("the writer");
+        let said = String::from_utf8(output.stderr).expect("text");
+        assert!(read > 0, "{line}: {said}");
+        assert!(
+            !said.contains("rayscope: ") && !said.contains("panicked"),
+            "{line}: {said}"
+        );
+        assert_eq!(output.status.code(), Some(0), "{line}: {said}");
+    }
+}

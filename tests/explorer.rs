@@ -619,6 +619,48 @@ fn what_a_method_gets_wrong_is_never_what_there_is_no_room_for() {
 }
 
 #[test]
+fn a_panel_takes_the_pictures_place_where_it_has_no_other() {
+    for (cols, rows) in [(40, 14), (30, 10), (60, 16)] {
+        let mut person = Person::opens("seed", cols, rows);
+        person.shows("view 40×40");
+        let picture = person.screen();
+        for (key, title) in [
+            ("1", "ray of pixel"),
+            ("2", "step 1"),
+            ("4", "f(t)"),
+            ("8", "plan"),
+        ] {
+            person.presses(key).shows(title);
+            assert!(
+                !person.screen().contains("view 40×40"),
+                "{}",
+                person.screen()
+            );
+            person.presses(key);
+            assert_eq!(person.screen(), picture, "{key} again");
+        }
+        person.presses("enter").shows("step 1");
+        person.presses("1");
+        assert_eq!(person.screen(), picture);
+    }
+    let mut person = Person::opens("seed", 80, 24);
+    let wide = person.screen();
+    person.presses("1 1");
+    assert_eq!(person.screen(), wide, "beside the picture nothing changes");
+}
+
+#[test]
+fn a_picture_that_is_cut_shows_its_middle() {
+    let mut person = Person::opens("seed", 80, 17);
+    let screen = person.screen();
+    // The disc is 20 of the 40 pixels high, in 11 of the 13 rows.
+    assert!(screen.contains("▄▄▄▄▀▄▄▄▄"), "{screen}");
+    assert!(screen.contains("▀▀▀ ▀▀▀▀▀ ▀▀▀"), "{screen}");
+    person.presses("K K K").shows("↓");
+    assert!(!person.screen().contains('↑'), "the cursor leads");
+}
+
+#[test]
 fn lines_that_have_no_room_are_counted_and_come_by_scrolling() {
     let mut person = Person::opens("trio", 80, 24);
     person.shows("9 more lines: pagedown");
@@ -1082,6 +1124,15 @@ fn pixels_are_collected_in_a_file_that_is_one_of_rows() {
     fs::write(&path, "x,y\n1,2").unwrap();
     person.commands(&append).shows("its first line is not");
     assert_eq!(fs::read_to_string(&path).unwrap(), "x,y\n1,2");
+    // To open a pipe would wait for somebody at its other end.
+    let pipe = folder.path().join("pipe");
+    rustix::fs::mkfifoat(rustix::fs::CWD, &pipe, rustix::fs::Mode::RWXU).unwrap();
+    person
+        .commands(&format!("append {}", pipe.display()))
+        .shows("it is no regular file");
+    person
+        .commands("append /dev/null")
+        .shows("it is no regular file");
 }
 
 #[test]

@@ -426,3 +426,11 @@ fn a_teachers_folder_is_a_tour() {
     assert!(said.contains("ball.toml:2:1: unknown field"), "{said}");
     assert!(tour::load(Path::new("/no/such/chapter.toml")).is_err());
 }
+
+#[test]
+fn on_a_small_screen_a_page_shows_what_it_speaks_of() {
+    let mut student = Student::opens("seed", (40, 20), Options::default());
+    student.types("tour 3").shows("step 3").shows("3/13");
+    student.presses("enter").shows("step 4");
+    student.presses("1").shows("view 40×40").shows("3/13");
+}

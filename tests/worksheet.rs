@@ -182,7 +182,7 @@ fn what_makes_no_sheet_is_said_in_a_sentence() {
     for (arguments, status, said) in [
         ("nowhere", 1, "nowhere"),
         (file.as_str(), 1, "the scene has no spheres"),
-        ("seed --count 0", 2, "0 is not in 1..=100"),
+        ("seed --count 0", 2, "a whole number from 1 to 100"),
         ("seed --size 0x4", 2, "--size"),
         ("seed --format pdf", 2, "--format"),
     ] {

@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 
 use super::plan::buffer_of;
 use super::progress::{INTERRUPTED, Progress};
-use super::{INVALID, choice, complain, save, write_out};
+use super::{INVALID, choice, complain, save, seed, whole, write_out};
 use crate::lab::bench::{self, MOST_TIMED, Plan, Report, Sample};
 use crate::lab::timing::{Schedule, SelfCheck, SystemClock};
 use crate::lab::{Alone, Family, Machine, frames, plot};
@@ -25,7 +25,7 @@ pub(super) struct Bench {
     quick: bool,
 
     /// What the rays are drawn from; the same seed gives the same rays everywhere
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = seed, allow_negative_numbers = true)]
     seed: u64,
 
     /// Only these methods, separated by commas
@@ -45,11 +45,11 @@ pub(super) struct Bench {
     frames: bool,
 
     /// With --frames: only these numbers of spheres, separated by commas
-    #[arg(long, value_name = "NUMBERS", value_delimiter = ',', requires = "frames", value_parser = clap::value_parser!(u32).range(1..=3_000_000))]
+    #[arg(long, value_name = "NUMBERS", value_delimiter = ',', requires = "frames", value_parser = whole(1_u32, 3_000_000))]
     counts: Vec<u32>,
 
     /// How many rays of each family
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole(1_u32, 10_000_000))]
     rays: Option<u32>,
 
     /// Also draw a chart, as SVG

@@ -111,6 +111,28 @@ fn aspect(text: &str) -> Result<f64, String> {
     }
 }
 
+/// Reads a whole number within bounds.
+fn whole<T>(least: T, most: T) -> impl Fn(&str) -> Result<T, String> + Clone
+where
+    T: std::str::FromStr + PartialOrd + fmt::Display + Clone,
+{
+    move |text| match text.parse() {
+        Ok(number) if (&least..=&most).contains(&&number) => Ok(number),
+        _ => Err(format!("expected a whole number from {least} to {most}")),
+    }
+}
+
+/// Reads a number that counts from 1.
+fn from_one(text: &str) -> Result<usize, String> {
+    text.parse()
+        .map_err(|_| "expected a whole number from 1".into())
+}
+
+/// Reads what random numbers start from.
+fn seed(text: &str) -> Result<u64, String> {
+    whole(0, u64::MAX)(text)
+}
+
 /// Reads a finite number.
 fn finite(text: &str) -> Result<f64, String> {
     read::binary64(text)

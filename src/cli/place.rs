@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::print::{pixel, size};
-use super::{choice, finite};
+use super::{choice, finite, from_one};
 use crate::explorer::{Opening, Panel};
 use crate::method::Method;
 use crate::scene::Size;
@@ -13,7 +13,7 @@ use crate::scene::Size;
 #[command(next_help_heading = "Where to open")]
 pub(super) struct Place {
     /// The pixel under the cursor
-    #[arg(long, value_name = "X,Y", value_parser = pixel)]
+    #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
     cursor: Option<(u32, u32)>,
 
     /// The picture in which the cursor counts, where the scene fixes none: on a screen of another
@@ -38,11 +38,11 @@ pub(super) struct Place {
     compare: Option<Method>,
 
     /// The sphere that is selected, from 1
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = from_one, allow_negative_numbers = true)]
     sphere: Option<usize>,
 
     /// The sphere that the panel shows, of those on the line under the cursor
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = from_one, allow_negative_numbers = true)]
     shown: Option<usize>,
 
     /// A number of the selected sphere or the camera, as after `:set`; may be repeated

@@ -9,8 +9,8 @@ use ratatui::layout::Rect;
 use ratatui::style::{Color, Style as CellStyle};
 use serde::Serialize;
 
-use super::print::{fit_in, size};
-use super::{INVALID, MISUSED, aspect, choice, complain, write_out};
+use super::print::{fit_in, size, view_in};
+use super::{INVALID, MISUSED, aspect, choice, complain, from_one, write_out};
 use crate::explain;
 use crate::explorer::usual_step;
 use crate::method::Method;
@@ -30,9 +30,9 @@ pub(super) struct Plan {
     #[arg(long, value_parser = choice(&Style::ALL, Style::name), default_value = Style::Half.name())]
     style: Style,
 
-    /// What the picture shows
-    #[arg(long, value_parser = choice(&View::ALL, View::name), default_value = View::default().name())]
-    view: View,
+    /// What the picture shows [default: shade; in the style seed, class]
+    #[arg(long, value_parser = choice(&View::ALL, View::name))]
+    view: Option<View>,
 
     /// Width and height in pixels [default: the scene's own, else what fills 80 by 24 cells]
     #[arg(long, value_name = "WxH", value_parser = size)]
@@ -47,7 +47,7 @@ pub(super) struct Plan {
     aspect: f64,
 
     /// The sphere that moves in the last of the frames, from 1
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = from_one, allow_negative_numbers = true)]
     sphere: usize,
 
     /// How the plan is written
@@ -118,8 +118,9 @@ fn report(arguments: &Plan) -> Result<Report, (u8, String)> {
         let found = arguments.sphere;
         return Err((MISUSED, format!("--sphere {found}: expected {expected}")));
     }
+    let view = view_in(style, arguments.view).map_err(|e| (MISUSED, e))?;
     let (size, shape) = fit_in(&scene, style, ROOM, arguments.size, arguments.aspect);
-    let mut screen = Screen::new(arguments, size, shape);
+    let mut screen = Screen::new(arguments, view, size, shape);
     let mut frames = vec![screen.show(&scene, "whole", "the whole picture, on an empty screen")];
     frames.push(screen.show(&scene, "cursor", "the cursor has moved"));
     let step = usual_step(&scene);
@@ -135,7 +136,7 @@ fn report(arguments: &Plan) -> Result<Report, (u8, String)> {
         spheres,
         projection: scene.camera.projection.name(),
         method: arguments.method.name(),
-        view: arguments.view.shown_in(style).name(),
+        view: view.name(),
         style: style.name(),
         frames,
     })
@@ -157,12 +158,12 @@ struct Screen {
 }
 
 impl Screen {
-    fn new(arguments: &Plan, size: Size, shape: PixelShape) -> Self {
+    fn new(arguments: &Plan, view: View, size: Size, shape: PixelShape) -> Self {
         Self {
             size,
             shape,
             method: arguments.method,
-            view: arguments.view.shown_in(arguments.style),
+            view,
             look: Look {
                 style: arguments.style,
                 depth: ColorDepth::Ansi256,

@@ -27,9 +27,9 @@ pub(super) struct Print {
     #[arg(long, env = "RAYSCOPE_STYLE", hide_env_values = true, value_parser = choice(&Style::ALL, Style::name))]
     style: Option<Style>,
 
-    /// What the picture shows
-    #[arg(long, value_parser = choice(&View::ALL, View::name), default_value = View::default().name())]
-    view: View,
+    /// What the picture shows [default: shade; in the style seed, class]
+    #[arg(long, value_parser = choice(&View::ALL, View::name))]
+    view: Option<View>,
 
     /// Width and height in pixels [default: the scene's own, else what fills the terminal]
     #[arg(long, value_name = "WxH", value_parser = size)]
@@ -54,7 +54,7 @@ pub(super) struct Print {
     aspect: f64,
 
     /// Instead of the picture, what the ray of one of its pixels finds
-    #[arg(long, value_name = "X,Y", value_parser = pixel)]
+    #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
     pixel: Option<(u32, u32)>,
 
     /// The whole derivation of that pixel, step by step
@@ -82,8 +82,12 @@ fn text(arguments: &Print) -> Result<String, (u8, String)> {
         .unwrap_or_else(|| default_style(capability.depth, capability.glyphs));
     let (size, shape) = fit_as_asked(&scene, style, arguments);
     let rays = Rays::new(&scene.camera, size, shape);
+    let view = view_in(style, arguments.view).map_err(|e| (MISUSED, e))?;
     match arguments.pixel {
-        None => Ok(picture(&scene, &rays, arguments, style, capability.depth)),
+        None => {
+            let depth = capability.depth;
+            Ok(picture(&scene, &rays, arguments, view, (style, depth)))
+        }
         Some((x, y)) if x < size.width && y < size.height => {
             let ray = rays.ray(x, y);
             let reading = Reading::take(&scene, (x, y), ray, arguments.method, None, None);
@@ -94,7 +98,7 @@ fn text(arguments: &Print) -> Result<String, (u8, String)> {
                     depth: ColorDepth::None,
                     ascii_only: glyphs == Glyphs::Ascii,
                 };
-                steps(&scene, &rays, arguments, &reading, look)
+                steps(&scene, &rays, arguments, &reading, (view, look))
             } else {
                 panel(&reading)
             };
@@ -106,6 +110,20 @@ fn text(arguments: &Print) -> Result<String, (u8, String)> {
             let expected = format!("a pixel of the picture, from 0,0 to {right},{bottom}");
             Err((MISUSED, format!("--pixel {x},{y}: expected {expected}")))
         }
+    }
+}
+
+/// What the picture shows: what is asked for, if the style can show it.
+pub(super) fn view_in(style: Style, asked: Option<View>) -> Result<View, String> {
+    let shown = asked.unwrap_or_default().shown_in(style);
+    match asked {
+        Some(view) if view != shown => Err(format!(
+            "--view {}: the style {} shows only {}; expected another style or no view",
+            view.name(),
+            style.name(),
+            shown.name()
+        )),
+        _ => Ok(shown),
     }
 }
 
@@ -123,9 +141,14 @@ fn panel(reading: &Reading) -> String {
 }
 
 /// The derivation of a pixel, from its place to the character that shows it.
-fn steps(scene: &Scene, rays: &Rays, arguments: &Print, reading: &Reading, look: Look) -> String {
+fn steps(
+    scene: &Scene,
+    rays: &Rays,
+    arguments: &Print,
+    reading: &Reading,
+    (view, look): (View, Look),
+) -> String {
     let mut frame = Frame::new();
-    let view = arguments.view.shown_in(look.style);
     frame.render(scene, rays, arguments.method, view);
     let mut image = Image::new();
     image.draw(&frame, scene, look);
@@ -142,11 +165,10 @@ fn picture(
     scene: &Scene,
     rays: &Rays,
     arguments: &Print,
-    style: Style,
-    depth: ColorDepth,
+    view: View,
+    (style, depth): (Style, ColorDepth),
 ) -> String {
     let mut frame = Frame::new();
-    let view = arguments.view.shown_in(style);
     frame.render(scene, rays, arguments.method, view);
     let mut image = Image::new();
     let look = Look {

@@ -7,7 +7,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
 use super::progress::{INTERRUPTED, Progress};
-use super::{INVALID, choice, complain, save, write_out};
+use super::{INVALID, choice, complain, save, seed, whole, write_out};
 use crate::lab::stress::{self, Plan, Report};
 use crate::lab::{Dial, plot};
 use crate::method::Method;
@@ -20,7 +20,7 @@ pub(super) struct Stress {
     quick: bool,
 
     /// What the rays are drawn from; the same seed gives the same rays everywhere
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = seed, allow_negative_numbers = true)]
     seed: u64,
 
     /// Only these methods, separated by commas
@@ -32,7 +32,7 @@ pub(super) struct Stress {
     dial: Vec<&'static Dial>,
 
     /// How many rays at each setting
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole(1_u32, 1_000_000))]
     rays: Option<u32>,
 
     /// Also draw a chart, as SVG

@@ -9,7 +9,7 @@ use clap::Args;
 
 use super::appearance::Appearance;
 use super::place::Place;
-use super::{INVALID, MISUSED, aspect, choice, complain, explore, write_out};
+use super::{INVALID, MISUSED, aspect, choice, complain, explore, from_one, write_out};
 use crate::explorer::tour::{self, Chapter};
 use crate::explorer::{Explorer, Opening, Options};
 use crate::method::Method;
@@ -24,11 +24,11 @@ pub(super) struct Tour {
     chapter: String,
 
     /// The page to begin with, from 1
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = from_one, allow_negative_numbers = true)]
     page: usize,
 
     /// List the chapters instead
-    #[arg(long)]
+    #[arg(long, conflicts_with = "page")]
     list: bool,
 
     /// How the quadratic is evaluated [default: as the page has it]

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use clap::{Args, ValueEnum};
 
 use super::print::size;
-use super::{INVALID, complain, write_out};
+use super::{INVALID, complain, seed, whole, write_out};
 use crate::explain::worksheet::{self, Part};
 use crate::render::{CELL_ASPECT, Style, fit};
 use crate::scene::{PixelShape, Rays, Scene, Size};
@@ -18,11 +18,11 @@ pub(super) struct Worksheet {
     scene: String,
 
     /// Which pixels are drawn: the same seed gives the same sheet on every machine
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = seed, allow_negative_numbers = true)]
     seed: u64,
 
     /// How many exercises; fewer if the scene has not that much to show
-    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u16).range(1..=100))]
+    #[arg(long, value_name = "N", default_value_t = 8, allow_negative_numbers = true, value_parser = whole(1_u16, 100))]
     count: u16,
 
     /// Width and height in pixels of the picture that they are of [default: the scene's own, or

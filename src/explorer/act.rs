@@ -99,14 +99,14 @@ impl Explorer {
             Action::ScrollDown => self.scroll += 5,
             Action::ScrollUp => self.scroll = self.scroll.saturating_sub(5),
 
-            Action::PanelQuadratic => self.panel = Panel::Quadratic,
-            Action::PanelSteps => self.panel = Panel::Steps,
-            Action::PanelSlice => self.panel = Panel::Slice,
-            Action::PanelCurve => self.panel = Panel::Curve,
-            Action::PanelBits => self.panel = Panel::Bits,
-            Action::PanelCompare => self.panel = Panel::Compare,
-            Action::PanelError => self.panel = Panel::Error,
-            Action::PanelPlan => self.panel = Panel::Plan,
+            Action::PanelQuadratic => self.show_panel(Panel::Quadratic),
+            Action::PanelSteps => self.show_panel(Panel::Steps),
+            Action::PanelSlice => self.show_panel(Panel::Slice),
+            Action::PanelCurve => self.show_panel(Panel::Curve),
+            Action::PanelBits => self.show_panel(Panel::Bits),
+            Action::PanelCompare => self.show_panel(Panel::Compare),
+            Action::PanelError => self.show_panel(Panel::Error),
+            Action::PanelPlan => self.show_panel(Panel::Plan),
             Action::NextStep => self.next_step(),
             Action::PreviousStep => self.go_to_step(self.step_at.saturating_sub(1)),
             Action::FirstStep => self.go_to_step(0),
@@ -154,7 +154,7 @@ impl Explorer {
             }
             Action::Link => self.pass_on(),
             Action::Suspend => {
-                self.stop_measuring();
+                self.pause();
                 self.request = Some(Request::Suspend);
             }
             Action::Quit => self.quit(),
@@ -177,7 +177,7 @@ impl Explorer {
             Command::View(view) => self.set_view(view),
             Command::Palette(palette) => self.set_palette(palette),
             Command::Color(depth) => self.set_depth(depth),
-            Command::Panel(panel) => self.panel = panel,
+            Command::Panel(panel) => self.show_panel(panel),
             Command::Copy(form) => self.copy_case(form),
             Command::Append(name) => self.append_case(Path::new(&name)),
             Command::Dial(dial, k) => self.dial_to(dial, k),

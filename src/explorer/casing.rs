@@ -75,6 +75,12 @@ impl Explorer {
 
 /// Appends a row to a file that has the header of rows; how many rows it has then.
 fn append(path: &Path, row: &str) -> Result<usize, String> {
+    // To open a pipe or a device for reading may wait for ever, or do things.
+    if let Ok(found) = fs::metadata(path)
+        && !found.is_file()
+    {
+        return Err("it is no regular file".into());
+    }
     let before = match fs::read_to_string(path) {
         Ok(text) => text,
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),

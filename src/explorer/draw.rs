@@ -13,6 +13,7 @@ use super::mode::{Form, Mode, Prompt};
 use super::theme::Theme;
 use super::{Explorer, Options};
 use crate::explain::{self, Digits, Glyphs, Line, Role, Span, number};
+use crate::geometry::Decimal;
 use crate::lab::CaseForm;
 use crate::method::{Place, Precision};
 use crate::render::{Cell, Style};
@@ -89,6 +90,16 @@ impl Pen<'_> {
             left
         };
         self.text(x, y, width, &text, CellStyle::new());
+    }
+
+    /// Words at the right end of the upper edge of a border, if they leave its title room.
+    pub(super) fn corner(&mut self, area: Rect, text: &str) {
+        let text = format!(" {text} ");
+        let width = text.width() as u16;
+        if 2 * (width + 2) <= area.width {
+            let x = area.right() - width - 2;
+            self.text(x, area.y, width, &text, CellStyle::new());
+        }
     }
 
     /// Lines with roles, from the top of `area`.
@@ -192,6 +203,11 @@ impl Explorer {
         if self.board {
             let body = layout.body();
             self.draw_board(pen, body);
+            return self.draw_footer(pen, layout.footer);
+        }
+        let covered = self.is_picture_covered(&layout) && !matches!(self.mode, Mode::Form(_));
+        if covered {
+            self.draw_panel_alone(pen, layout.body());
             return self.draw_footer(pen, layout.footer);
         }
         let cell = self.draw_view(pen, layout.view);
@@ -516,7 +532,7 @@ impl Explorer {
                 ));
             } else {
                 let value = field.get(self.scene(), self.selected);
-                let value = value.map_or(String::new(), |v| v.to_string());
+                let value = value.map_or(String::new(), |v| Decimal(v).to_string());
                 pen.text(x, y, space, &value, CellStyle::new());
             }
         }

@@ -1,6 +1,6 @@
 //! The numbers that a person can type: each of the selected sphere and of the camera.
 
-use crate::geometry::{Invalid, Sphere};
+use crate::geometry::{Decimal, Invalid, Sphere};
 use crate::method::read;
 use crate::scene::{Camera, Projection, Scene};
 
@@ -103,7 +103,7 @@ impl Field {
             return Err(Invalid::new(self.name(), found, "a number the scene has"));
         }
         if !value.is_finite() {
-            return Err(Invalid::new(self.name(), value, "a finite number"));
+            return Err(Invalid::new(self.name(), Decimal(value), "a finite number"));
         }
         if let (true, Some(at)) = (self.is_of_sphere(), selected) {
             let mut body = scene.bodies[at].clone();

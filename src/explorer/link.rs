@@ -9,6 +9,7 @@ use super::plain;
 use super::saving::FilePlace;
 use super::{Explorer, Options, Request};
 use crate::explain::Why;
+use crate::geometry::Decimal;
 use crate::method::Method;
 use crate::render::{Style, View};
 use crate::scene::{Scene, Size};
@@ -179,7 +180,7 @@ impl Explorer {
             let value = f.get(now, self.selected)?;
             let old = f.get(base, self.selected);
             let same = old.is_some_and(|old| old.to_bits() == value.to_bits());
-            (!same).then(|| format!("{}={value}", f.name()))
+            (!same).then(|| format!("{}={}", f.name(), Decimal(value)))
         });
         let values: Vec<String> = values.collect();
         match with_numbers(base, self.selected, &values) {

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
 use std::thread;
+use std::time::Duration;
 
 use super::Explorer;
 use super::panel::Panel;
@@ -162,6 +163,9 @@ impl Measuring {
     }
 }
 
+/// How long to wait at most for a measurement that was called off to end.
+const RELEASE: Duration = Duration::from_secs(2);
+
 /// What the panel says before anything was measured.
 const NOTHING_YET: &str = "Press % to time all methods on the questions that this picture asks: the ray \
     of each pixel with each sphere. Each answer is held against the truth as well. It takes about a \
@@ -276,9 +280,13 @@ impl Explorer {
         }
     }
 
-    /// Calls a measurement off, as before this process stops and would hold up all others.
-    pub(super) fn stop_measuring(&mut self) {
-        if self.measuring.run.take().is_some() {
+    /// Calls a measurement off before this process stops, and waits until its thread has let go of
+    /// the right to measure: a process that is stopped with it would hold up all others.
+    pub fn pause(&mut self) {
+        if let Some(run) = self.measuring.run.take() {
+            run.cancel.store(true, Ordering::Relaxed);
+            // Between two rounds it looks; one that takes longer is not worth a terminal that hangs.
+            let _ = run.report.recv_timeout(RELEASE);
             self.measuring.refusal = Some(NoChart::Cancelled);
         }
     }

@@ -130,6 +130,10 @@ impl Default for Options {
 
 /// The whole state of one person's explorer.
 #[derive(Debug)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is a choice of its own, which a key of its own turns"
+)]
 pub struct Explorer {
     document: Document,
     /// The scene as it was opened: what reset and home go back to.
@@ -147,6 +151,8 @@ pub struct Explorer {
     scroll: usize,
     /// The panel that the person asked for; others join it where there is room.
     panel: Panel,
+    /// Where a panel has no room beside the picture: the numbers stand in the picture's place.
+    numbers_alone: bool,
     /// The step of the derivation that is shown.
     step_at: usize,
     /// The name of the step that the person chose, and where it, or what stands in for it where there
@@ -208,6 +214,7 @@ impl Explorer {
             full_digits: false,
             scroll: 0,
             panel: Panel::default(),
+            numbers_alone: false,
             step_at: 0,
             kept_step: None,
             prediction: Prediction::default(),

@@ -11,6 +11,7 @@ use super::key::Key;
 use super::prompt::Line;
 use super::rescue;
 use super::touring::Tour;
+use crate::geometry::Decimal;
 use crate::lab::CaseForm;
 
 /// What keys mean now.
@@ -252,7 +253,7 @@ impl Explorer {
         } else if key.is("enter") {
             let value = fields[form.at].get(self.scene(), self.selected);
             form.typing = Some(Line::chosen(
-                &value.map_or(String::new(), |v| v.to_string()),
+                &value.map_or(String::new(), |v| Decimal(v).to_string()),
             ));
         } else if key
             .typed()

@@ -55,7 +55,9 @@ impl Explorer {
     fn click(&mut self, col: u16, row: u16) -> bool {
         self.refresh();
         let (cols, rows) = self.screen;
-        let shown = self.layout(Rect::new(0, 0, cols, rows)).map(|layout| {
+        let layout = self.layout(Rect::new(0, 0, cols, rows));
+        let layout = layout.filter(|layout| !self.is_picture_covered(layout));
+        let shown = layout.map(|layout| {
             let image = &self.picture.image;
             let (left, top) = self.picture.offset;
             (layout::centered(layout.view, image, (left, top)), left, top)

@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use super::Explorer;
 use super::draw::Pen;
 use super::large;
-use super::layout;
+use super::layout::{self, Layout};
 use super::panel::Panel;
 use super::stepping::Prediction;
 use super::theme::Theme;
@@ -13,6 +13,31 @@ use crate::explain::{self, Line, Question, Reading, StepLook, Subject};
 use crate::render;
 
 impl Explorer {
+    /// Shows a panel. Where it takes the picture's place, the same key brings the picture back.
+    pub(super) fn show_panel(&mut self, panel: Panel) {
+        let (cols, rows) = self.screen;
+        let layout = self.layout(Rect::new(0, 0, cols, rows));
+        let covers = layout.is_some_and(|layout| layout.panel.is_empty());
+        let again = covers && self.panel == panel;
+        (self.panel, self.numbers_alone) = match panel {
+            Panel::Quadratic => (panel, again && !self.numbers_alone),
+            _ if again => (Panel::Quadratic, false),
+            _ => (panel, false),
+        };
+    }
+
+    /// Whether the panel that was asked for stands in the place of the picture: on a screen where it
+    /// has no other.
+    pub(super) fn is_picture_covered(&self, layout: &Layout) -> bool {
+        layout.panel.is_empty() && (self.panel != Panel::Quadratic || self.numbers_alone)
+    }
+
+    /// The panel in the place of the picture.
+    pub(super) fn draw_panel_alone(&self, pen: &mut Pen<'_>, area: Rect) {
+        self.draw_panel(pen, self.panel, area);
+        pen.corner(area, "1: picture");
+    }
+
     /// All panels that have room.
     pub(super) fn draw_panels(&self, pen: &mut Pen<'_>, side: Rect) {
         for (panel, area) in Panel::tiles(side, self.panel) {

@@ -17,6 +17,8 @@ pub(super) struct Picture {
     pub(super) image: Image,
     /// First column and row of the picture that are on the screen.
     pub(super) offset: (u32, u32),
+    /// Columns and rows of the picture, and the room, that the offset is for.
+    scrolled_in: Option<(u32, u32, (u16, u16))>,
     pub(super) reading: Option<Reading>,
     pub(super) reading_key: Option<ReadingKey>,
     /// The derivation of the reading.
@@ -165,6 +167,7 @@ impl Picture {
             frame: Frame::new(),
             image: Image::new(),
             offset: (0, 0),
+            scrolled_in: None,
             reading: None,
             reading_key: None,
             steps: Vec::new(),
@@ -181,8 +184,18 @@ impl Picture {
         self.steps.clear();
     }
 
-    /// Scrolls a picture that is larger than its room by as little as shows the cursor's cell.
+    /// Scrolls a picture that is larger than its room by as little as shows the cursor's cell; in
+    /// another room, or for another size, from its middle.
     fn scroll_to(&mut self, cell: (u32, u32), room: (u16, u16)) {
+        let sizes = (self.image.cols, self.image.rows, room);
+        if self.scrolled_in != Some(sizes) {
+            self.scrolled_in = Some(sizes);
+            let middle = |all: u32, room: u16| all.saturating_sub(room.into()) / 2;
+            self.offset = (
+                middle(self.image.cols, room.0),
+                middle(self.image.rows, room.1),
+            );
+        }
         let scrolled = |offset: u32, cell: u32, room: u32, all: u32| {
             let least = (cell + 1).saturating_sub(room);
             offset

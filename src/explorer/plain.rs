@@ -13,6 +13,7 @@ use super::mode::{Mode, Purpose, Question};
 use super::panel::Panel;
 use super::{Explorer, Request};
 use crate::explain::{self, Digits, Line, Reading, StepLook, Subject};
+use crate::geometry::Decimal;
 use crate::method::{Class, Precision};
 
 /// What is said to a line.
@@ -69,8 +70,10 @@ impl Explorer {
         matches!(self.mode, Mode::Ask(Question::Quit))
     }
 
-    /// Puts a question off, since nobody is there to answer it.
+    /// Puts a question off, since nobody is there to answer it, and with it what is said to a person
+    /// who has just come.
     pub fn put_off(&mut self) {
+        self.message = None;
         if self.is_asking() {
             self.mode = Mode::Normal;
         }
@@ -338,12 +341,7 @@ impl Explorer {
         let fields = Field::of(self.scene(), self.selected).into_iter();
         let values = fields.filter_map(|f| Some((f.name(), f.get(self.scene(), self.selected)?)));
         let lines: Vec<_> = values
-            .map(|(name, value)| {
-                format!(
-                    "{name} {value}
-"
-                )
-            })
+            .map(|(name, value)| format!("{name} {}\n", Decimal(value)))
             .collect();
         lines.concat()
     }

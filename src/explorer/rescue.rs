@@ -9,8 +9,9 @@ use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use super::Explorer;
 use super::document::Change;
+use super::link::command_line;
 use super::mode::{Mode, Question};
-use crate::scene::{Scene, Source};
+use crate::scene::{Builtin, Scene, Source};
 
 /// What the line starts with that says which scene a file belongs to.
 const BELONGS: &str = "# scene: ";
@@ -34,8 +35,10 @@ impl Explorer {
             scene: identity(source),
             taken: None,
         };
-        if let Some((path, age)) = rescue.newest() {
+        if let Some((path, age)) = rescue.newest(|scene| scene == rescue.scene) {
             self.mode = Mode::Ask(Question::Recover { path, age });
+        } else if let Some((path, age)) = rescue.newest(|_| true) {
+            self.say(elsewhere(&path, age));
         }
         self.rescue = Some(rescue);
     }
@@ -125,25 +128,19 @@ impl Rescue {
         Ok(path)
     }
 
-    /// The newest file kept for this scene, and how old it is.
-    fn newest(&self) -> Option<(PathBuf, Duration)> {
+    /// The newest file kept for a scene that is wanted, and how old it is.
+    fn newest(&self, is_wanted: impl Fn(&str) -> bool) -> Option<(PathBuf, Duration)> {
         fs::read_dir(&self.folder)
             .ok()?
             .flatten()
             .map(|entry| entry.path())
             .filter(|path| path.extension().is_some_and(|e| e == "toml"))
-            .filter(|path| self.owns(path))
+            .filter(|path| owner(path).is_some_and(|scene| is_wanted(&scene)))
             .filter_map(|path| {
                 let written = fs::metadata(&path).ok()?.modified().ok()?;
                 Some((path, written.elapsed().unwrap_or_default()))
             })
             .min_by_key(|(_, age)| *age)
-    }
-
-    fn owns(&self, path: &Path) -> bool {
-        let text = fs::read_to_string(path).unwrap_or_default();
-        let mut lines = text.lines().filter_map(|l| l.strip_prefix(BELONGS));
-        lines.next() == Some(&self.scene)
     }
 
     fn forget_taken(&mut self) {
@@ -152,6 +149,26 @@ impl Rescue {
             let _ = fs::remove_file(path);
         }
     }
+}
+
+/// The scene that a kept file belongs to.
+fn owner(path: &Path) -> Option<String> {
+    let text = fs::read_to_string(path).ok()?;
+    let mut lines = text.lines().filter_map(|l| l.strip_prefix(BELONGS));
+    lines.next().map(str::to_owned)
+}
+
+/// That work on another scene was kept, and how to come by it.
+fn elsewhere(path: &Path, age: Duration) -> String {
+    let scene = owner(path).unwrap_or_default();
+    let is_there = Builtin::by_name(&scene).is_some() || Path::new(&scene).exists();
+    let file = path.to_string_lossy();
+    let opens = if is_there { scene.clone() } else { file.into() };
+    format!(
+        "Unsaved work of {} ago on {scene} was kept: `{}` opens it.",
+        words(age),
+        command_line(&[opens])
+    )
 }
 
 /// What a scene was opened as, in one line.
@@ -217,7 +234,13 @@ mod tests {
             assert_eq!([mode(&kept), mode(&folder)], [0o600, 0o700]);
         }
 
-        assert_eq!(opened(&folder, "seed").mode, Mode::Normal);
+        let mut other = opened(&folder, "seed");
+        assert_eq!(other.mode, Mode::Normal);
+        let said = other.message.take().expect("a message").text;
+        assert!(
+            said.contains("on trio was kept: `rayscope trio` opens it"),
+            "{said}"
+        );
         let mut again = opened(&folder, "trio");
         assert!(matches!(again.mode, Mode::Ask(Question::Recover { .. })));
         press(&mut again, "o");

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::document::Change;
 use super::{Explorer, motion};
-use crate::geometry::Sphere;
+use crate::geometry::{Decimal, Sphere};
 use crate::method::{Class, Method};
 use crate::scene::Body;
 
@@ -180,7 +180,8 @@ impl Explorer {
         let center = body.sphere.center;
         let Ok(sphere) = Sphere::new(center, radius) else {
             return self.warn(format!(
-                "The line is {radius} away: no sphere has that radius."
+                "The line is {} away: no sphere has that radius.",
+                Decimal(radius)
             ));
         };
         self.select(at);
@@ -189,6 +190,7 @@ impl Explorer {
         let method: Method = self.options.method;
         let class = method.solve(&ray, &sphere).class;
         let discriminant = method.coefficients(&ray, &sphere).discriminant;
+        let radius = Decimal(radius);
         self.say(match class {
             Class::Tangent => format!("r = {radius}: Δ = 0 by {method}, the line touches."),
             _ => format!(

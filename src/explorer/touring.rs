@@ -303,7 +303,7 @@ impl Explorer {
         self.options.view = state.view;
         let own_style = self.tour.as_ref().map(|t| t.own_style);
         self.options.style = state.style.or(own_style).unwrap_or(self.options.style);
-        self.panel = state.panel;
+        (self.panel, self.numbers_alone) = (state.panel, false);
         self.other_method = state.compare;
         self.scrubbed = state.t;
         self.prediction = Prediction {

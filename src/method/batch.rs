@@ -8,6 +8,8 @@
     reason = "a kernel is compiled for wider vectors only with all that it calls inside it"
 )]
 
+use std::marker::PhantomData;
+
 use glam::Vec3;
 
 use super::exact::lanes::{self, Inputs, LANES};
@@ -232,11 +234,11 @@ impl<O: Vectors, D: Vectors, C: Vectors, R: Scalars> Batch<O, D, C, R> {
     pub fn solve(&self, method: Method, out: &mut Solutions) {
         out.resize(self.count());
         match method {
-            Method::Textbook => self.each(textbook::solve, out),
-            Method::Citardauq => self.each(citardauq::solve, out),
-            Method::Haines => self.each(haines::solve, out),
-            Method::Kahan => self.each(kahan::solve, out),
-            Method::Double => self.each(double::solve, out),
+            Method::Textbook => self.each::<Textbook>(out),
+            Method::Citardauq => self.each::<Citardauq>(out),
+            Method::Haines => self.each::<Haines>(out),
+            Method::Kahan => self.each::<Kahan>(out),
+            Method::Double => self.each::<Double>(out),
             Method::Exact => simd::dispatch(Exactly { batch: self, out }),
         }
     }
@@ -277,10 +279,10 @@ impl<O: Vectors, D: Vectors, C: Vectors, R: Scalars> Batch<O, D, C, R> {
         }
     }
 
-    fn each(&self, solve: impl Fn(&Ray, &Sphere) -> Solution, out: &mut Solutions) {
+    fn each<S: Single>(&self, out: &mut Solutions) {
         simd::dispatch(Each {
             batch: self,
-            solve,
+            single: PhantomData::<S>,
             out,
         });
     }
@@ -319,20 +321,49 @@ impl<O: Vectors, D: Vectors, C: Vectors, R: Scalars> Inputs for Batch<O, D, C, R
     }
 }
 
+/// A single call that is compiled into the loop that makes it.
+///
+/// A function that is passed as a value need not be: then each lane is a call out of the loop, and, with
+/// wide vectors, from their code into code without, which costs more than the work.
+trait Single {
+    fn solve(ray: &Ray, sphere: &Sphere) -> Solution;
+}
+
+macro_rules! single {
+    ($($method:ident $solve:path;)*) => { $(
+        struct $method;
+
+        impl Single for $method {
+            #[inline(always)]
+            fn solve(ray: &Ray, sphere: &Sphere) -> Solution {
+                $solve(ray, sphere)
+            }
+        }
+    )* };
+}
+
+single! {
+    Textbook textbook::solve;
+    Citardauq citardauq::solve;
+    Haines haines::solve_in_loop;
+    Kahan kahan::solve;
+    Double double::solve_in_loop;
+}
+
 /// A loop over the single call.
-struct Each<'a, B, F> {
+struct Each<'a, B, S> {
     batch: &'a B,
-    solve: F,
+    single: PhantomData<S>,
     out: &'a mut Solutions,
 }
 
-impl<O, D, C, R, F> Kernel for Each<'_, Batch<O, D, C, R>, F>
+impl<O, D, C, R, S> Kernel for Each<'_, Batch<O, D, C, R>, S>
 where
     O: Vectors,
     D: Vectors,
     C: Vectors,
     R: Scalars,
-    F: Fn(&Ray, &Sphere) -> Solution,
+    S: Single,
 {
     #[inline(always)]
     fn run(self) {
@@ -340,7 +371,7 @@ where
         let out = class.iter_mut().zip(near).zip(far);
         for (i, ((class, near), far)) in out.enumerate() {
             let (ray, sphere) = self.batch.get(i);
-            let solution = (self.solve)(&ray, &sphere);
+            let solution = S::solve(&ray, &sphere);
             (*class, *near, *far) = (solution.class, solution.near, solution.far);
         }
     }

@@ -43,9 +43,22 @@ fn quadratic<T: Number>(input: &Input<T>) -> Quadratic<T> {
 }
 
 /// Class by the sign of D = A(r² − ‖l‖²), roots by the q-form.
-pub(super) fn solve(ray: &Ray, sphere: &Sphere) -> Solution {
+///
+/// For a loop over arrays: it is compiled into the loop, for the vectors that the loop has.
+#[expect(
+    clippy::inline_always,
+    reason = "a call would leave the loop's vectors"
+)]
+#[inline(always)]
+pub(super) fn solve_in_loop(ray: &Ray, sphere: &Sphere) -> Solution {
     let Quadratic { k, reduced, .. } = quadratic(&Input::new(ray, sphere, |x| x));
     q_form::solution(&k, reduced)
+}
+
+/// As [`solve_in_loop`], one by one: a call of its own, so that it is not in the way of shorter ones.
+#[inline(never)]
+pub(super) fn solve(ray: &Ray, sphere: &Sphere) -> Solution {
+    solve_in_loop(ray, sphere)
 }
 
 /// A, B = 2b, C and Δ = 4D in binary32, D being A(r² − ‖l‖²): C does not enter Δ here.

@@ -4,7 +4,7 @@ use std::fmt;
 
 use glam::{DVec3, Vec3};
 
-use crate::geometry::{Invalid, Ray};
+use crate::geometry::{Decimal, Invalid, List, Ray};
 
 /// How pixels become rays.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,19 +64,23 @@ impl Camera {
             ("up", self.up),
         ] {
             if !v.is_finite() {
-                return Err(Invalid::new(name, v, "three finite numbers"));
+                return Err(Invalid::new(
+                    name,
+                    List(v.to_array()),
+                    "three finite numbers",
+                ));
             }
         }
         match self.projection {
             Projection::Orthographic { extent } => {
                 if !extent.iter().all(|e| e.is_finite() && *e > 0.0) {
-                    let found = format!("[{}, {}]", extent[0], extent[1]);
+                    let found = List(extent);
                     return Err(Invalid::new("extent", found, "two finite numbers above 0"));
                 }
                 // Whatever the shape of its room, a picture shows less than this many times as much.
                 let reach = f64::from(Size::LARGEST) * f64::from(extent[0].max(extent[1]));
                 if self.position.as_dvec3().abs().max_element() + reach > f64::from(f32::MAX) {
-                    let found = format!("[{}, {}]", extent[0], extent[1]);
+                    let found = List(extent);
                     return Err(Invalid::new(
                         "extent",
                         found,
@@ -88,7 +92,7 @@ impl Camera {
                 if !(field_of_view > 0.0 && field_of_view < 180.0) {
                     return Err(Invalid::new(
                         "field_of_view",
-                        field_of_view,
+                        Decimal(field_of_view),
                         "an angle in degrees above 0 and below 180",
                     ));
                 }
@@ -97,14 +101,14 @@ impl Camera {
         if self.look_at == self.position {
             return Err(Invalid::new(
                 "look_at",
-                self.look_at,
+                List(self.look_at.to_array()),
                 "a point other than the camera's position",
             ));
         }
         if self.try_basis().is_none() {
             return Err(Invalid::new(
                 "up",
-                self.up,
+                List(self.up.to_array()),
                 "a direction other than zero and other than the one the camera looks in",
             ));
         }

@@ -9,6 +9,7 @@ use std::fmt;
 use glam::Vec3;
 
 use super::Rgb;
+use crate::geometry::Decimal;
 use crate::method::read;
 
 /// What was found in place of a value, and what was expected there.
@@ -76,7 +77,7 @@ impl Number {
         if allowed && value.is_finite() {
             Ok(value)
         } else {
-            Err(Refused::new(value.to_string(), self.expected()))
+            Err(Refused::new(Decimal(value).to_string(), self.expected()))
         }
     }
 

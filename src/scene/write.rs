@@ -7,6 +7,7 @@ use std::fmt::{self, Write};
 use glam::Vec3;
 
 use super::{Aim, Body, Camera, Probe, Projection, Rgb, Scene};
+use crate::geometry::{Decimal, List};
 
 impl Scene {
     /// The scene as the text of a scene file.
@@ -87,39 +88,8 @@ impl fmt::Display for Rgb {
     }
 }
 
-/// The shortest decimal that reads back as the same binary32, as TOML spells it.
-struct Decimal(f32);
-
-impl fmt::Display for Decimal {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        /// Readers of TOML need not accept integers from 2⁶³ on; zeros before that are no help.
-        const PLAIN: std::ops::Range<f32> = 1e-5..1e15;
-        let value = self.0;
-        if value == 0.0 && value.is_sign_negative() {
-            // As an integer, −0 would lose its sign.
-            write!(f, "-0.0")
-        } else if value == 0.0 || PLAIN.contains(&value.abs()) {
-            write!(f, "{value}")
-        } else {
-            write!(f, "{value:e}")
-        }
-    }
-}
-
-struct List<const N: usize>([f32; N]);
-
 fn list(v: Vec3) -> List<3> {
     List(v.to_array())
-}
-
-impl<const N: usize> fmt::Display for List<N> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (n, &component) in self.0.iter().enumerate() {
-            let before = if n == 0 { "[" } else { ", " };
-            write!(f, "{before}{}", Decimal(component))?;
-        }
-        write!(f, "]")
-    }
 }
 
 /// A basic string of TOML.
@@ -142,24 +112,6 @@ impl fmt::Display for Quoted<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn decimals_are_short_and_plain_where_that_is_short() {
-        for (value, text) in [
-            (10.0, "10"),
-            (-0.1, "-0.1"),
-            (16_777_216.0, "16777216"),
-            (0.0, "0"),
-            (-0.0, "-0.0"),
-            (1e-5, "0.00001"),
-            (1e-7, "1e-7"),
-            (1e30, "1e30"),
-            (-f32::MAX, "-3.4028235e38"),
-            (f32::from_bits(1), "1e-45"),
-        ] {
-            assert_eq!(Decimal(value).to_string(), text);
-        }
-    }
 
     #[test]
     fn strings_are_escaped() {

@@ -40,6 +40,8 @@ pub enum Input {
     Redraw,
     /// Somebody woke the loop through [`Link::waker`].
     Woken,
+    /// Somebody wants the whole program to stop until it is told to go on.
+    Stop,
     /// It is over, with this exit status, whatever the person wants.
     End(u8),
 }
@@ -62,6 +64,8 @@ pub trait Link {
     fn forget(&mut self);
     /// Stops the explorer, for its shell to take over; false if nobody would let it go on.
     fn suspend(&mut self) -> bool;
+    /// Gives the terminal back and stops, as [`Input::Stop`] asks.
+    fn stop(&mut self) -> io::Result<()>;
 }
 
 /// Runs the explorer until the person leaves or the link ends; the exit status.
@@ -79,6 +83,10 @@ pub fn run(explorer: &mut Explorer, link: &mut impl Link) -> io::Result<u8> {
                 Some(Input::Event(event)) => due |= explorer.update(&event),
                 Some(Input::Redraw) => due = true,
                 Some(Input::Woken) => due |= explorer.catch_up(),
+                Some(Input::Stop) => {
+                    explorer.pause();
+                    link.stop()?;
+                }
                 Some(Input::End(status)) => return Ok(status),
                 None => break,
             }

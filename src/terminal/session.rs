@@ -203,10 +203,7 @@ impl Session {
             }
             // Who nobody waits for would never go on.
             Asked::Stop if !Device::can_stop() => {}
-            Asked::Stop => {
-                self.give_back();
-                signals::stop()?;
-            }
+            Asked::Stop => self.inputs.push_back(Input::Stop),
             Asked::GoOn => {
                 self.take_over()?;
                 self.inputs.push_back(Input::Redraw);
@@ -314,6 +311,11 @@ impl Link for Session {
     fn suspend(&mut self) -> bool {
         // The whole job stops, as it would if the terminal had made a signal of the key.
         Device::can_stop() && kill_current_process_group(Signal::TSTP).is_ok()
+    }
+
+    fn stop(&mut self) -> io::Result<()> {
+        self.give_back();
+        signals::stop()
     }
 }
 

@@ -7,6 +7,7 @@ mod ssh;
 use std::fs;
 
 use pty::{Pty, Start};
+use rayscope::lab::Alone;
 use rustix::process::Signal;
 
 #[test]
@@ -190,6 +191,27 @@ fn ctrl_z_gives_the_terminal_to_the_shell_and_fg_comes_back() {
     pty.waits_to_show("status 0");
     assert_eq!(pty.ends(), 0);
     pty.is_restored();
+}
+
+#[test]
+fn whoever_is_stopped_lets_others_measure() {
+    let shell = "set -m; \"$@\"; echo back in the shell; read line; fg >/dev/null; echo status $?";
+    let mut pty = Pty::explorer(Start::default().through(shell));
+    pty.sends("%");
+    pty.waits_to_show("error against run time");
+    pty.sends("\x1a");
+    pty.waits_to_show("back in the shell");
+    // Another test may be measuring just now; one that is stopped would do so for ever.
+    pty.waits_for("the right to measure", |_| {
+        Alone::take().is_ok_and(|alone| alone.is_some())
+    });
+    pty.sends("go on\r");
+    pty.waits_for("the panel again", |p| {
+        p.shows("was stopped") || p.shows("Another explorer") || p.shows("wrong %")
+    });
+    pty.sends("q");
+    pty.waits_to_show("status 0");
+    assert_eq!(pty.ends(), 0);
 }
 
 #[test]

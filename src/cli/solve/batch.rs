@@ -129,6 +129,10 @@ fn answer(
         .read(&mut row, Some(columns.count()))
         .map_err(unreadable)?
     {
+        // Input that ended since nobody reads the answers may have ended within a row.
+        if failed.borrow().is_some() {
+            break;
+        }
         text.clear();
         columns.copy(&row, &mut text);
         match columns.read(&row) {

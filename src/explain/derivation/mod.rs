@@ -23,6 +23,12 @@ pub struct Drawn {
     pub brightness: f32,
     /// The character of the cell that shows the pixel.
     pub glyph: char,
+    /// Whether the cell has a ground of a colour of its own behind the character.
+    pub has_ground: bool,
+    /// The row of the pixel.
+    pub row: u32,
+    /// The brightness of the pixel that shares the cell in half blocks: of the row before or after.
+    pub partner: f32,
     /// How samples become characters.
     pub style: Style,
     /// What the picture shows.
@@ -33,9 +39,13 @@ impl Drawn {
     /// What a frame and its image made of pixel (x, y).
     pub fn at((x, y): (u32, u32), frame: &Frame, image: &Image, style: Style) -> Self {
         let (col, row) = style.cell_of_pixel(x, y);
+        let cell = image.cell(col, row);
         Self {
             brightness: frame.brightness(x, y),
-            glyph: image.cell(col, row).map_or(' ', |cell| cell.glyph),
+            glyph: cell.map_or(' ', |cell| cell.glyph),
+            has_ground: cell.is_some_and(|cell| cell.bg.is_some()),
+            row: y,
+            partner: frame.brightness(x, y ^ 1),
             style,
             view: frame.view(),
         }

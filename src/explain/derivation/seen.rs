@@ -78,14 +78,14 @@ fn seen_step(subject: &Subject) -> Step {
             "Place::Behind => None,",
         ),
         None => (
-            "nothing of this sphere is seen".into(),
+            "no root: nothing of this sphere is seen".into(),
             "if !self.class.meets() {",
         ),
     };
     let numbers = match subject.solution.class {
         Class::Secant => format!("near = {near}, far = {far}"),
         Class::Tangent => format!("t = {near}"),
-        Class::Miss | Class::Nan => "no root".into(),
+        Class::Miss | Class::Nan => String::new(),
     };
     Step {
         numbers,
@@ -191,9 +191,16 @@ fn normal_step(subject: &Subject, sight: &Sight) -> Step {
     }
 }
 
-/// The brightness that the picture has, to be shown.
-fn brightness(drawn: &Drawn) -> String {
-    let value = f64::from(drawn.brightness);
+/// The brightness that the picture has, to be shown; in another view, that it would have.
+fn brightness(drawn: &Drawn, cosine: f64) -> String {
+    let value = match drawn.view {
+        View::Shade => f64::from(drawn.brightness),
+        _ => AMBIENT + (1.0 - AMBIENT) * cosine.max(0.0),
+    };
+    three_digits(value)
+}
+
+fn three_digits(value: f64) -> String {
     number(value, Precision::Binary32, Digits::Significant(3))
 }
 
@@ -229,7 +236,7 @@ fn lamp_step(subject: &Subject, sight: &Sight, light: Light, drawn: &Drawn) -> S
     };
     Step {
         numbers,
-        result: format!("brightness {}", brightness(drawn)),
+        result: format!("brightness {}", brightness(drawn, cosine)),
         code: code.into(),
         ..Step::plain(
             "shade",
@@ -253,7 +260,7 @@ fn headlight_step(reading: &Reading, subject: &Subject, drawn: &Drawn) -> Step {
             "cos θ = {}, brightness {} = {}",
             n64(cosine),
             dimmed(cosine),
-            brightness(drawn)
+            brightness(drawn, cosine)
         )
     } else {
         format!("cos θ = {}; another sphere is in front", n64(cosine))
@@ -293,6 +300,7 @@ fn glyph_step(subject: &Subject, drawn: &Drawn) -> Step {
             style.name()
         ),
     };
+    let shown = three_digits(drawn.brightness.into());
     let (formula, numbers, code) = match (view, style) {
         (_, Style::Seed) => (
             "++ for a point in common, -- for none".to_owned(),
@@ -305,12 +313,12 @@ fn glyph_step(subject: &Subject, drawn: &Drawn) -> Step {
                 RAMP.len(),
                 String::from_utf8_lossy(RAMP)
             ),
-            format!("no. ⌊{}·{}⌋ + 1 of them", brightness(drawn), RAMP.len()),
+            format!("no. ⌊{shown}·{}⌋ + 1 of them", RAMP.len()),
             "RAMP[step(level, RAMP.len())].into()",
         ),
-        (_, Style::Half) => (
-            "upper pixel and lower pixel → one block".to_owned(),
-            String::new(),
+        (view, Style::Half) => (
+            "the pixels of two rows, one above the other → one character".to_owned(),
+            halves(drawn, view),
             "let glyph = quadrants(self.quarters(top), self.quarters(bottom));",
         ),
         (_, Style::Braille) => (
@@ -324,11 +332,47 @@ fn glyph_step(subject: &Subject, drawn: &Drawn) -> Step {
             "Some(ink) => Cell::of(ink.glyph, ink.color),",
         ),
     };
+    let meaning = match style {
+        Style::Half => block_in_words(drawn),
+        _ => "",
+    };
     Step {
         numbers,
-        result: format!("“{}”", drawn.glyph),
+        result: format!("“{}”{meaning}", drawn.glyph),
         code: code.into(),
         ..Step::plain("glyph", &why, &formula)
+    }
+}
+
+/// The two pixels that share a cell in half blocks, each with its row.
+fn halves(drawn: &Drawn, view: View) -> String {
+    let shown = |brightness: f32| match view {
+        View::Shade => format!(", brightness {}", three_digits(brightness.into())),
+        _ => String::new(),
+    };
+    let this = format!("row {} (this pixel){}", drawn.row, shown(drawn.brightness));
+    let other = format!("row {}{}", drawn.row ^ 1, shown(drawn.partner));
+    if drawn.row.is_multiple_of(2) {
+        format!("above: {this}; below: {other}")
+    } else {
+        format!("above: {other}; below: {this}")
+    }
+}
+
+/// What a half block says of its two pixels.
+fn block_in_words(drawn: &Drawn) -> &'static str {
+    match (drawn.glyph, drawn.has_ground) {
+        (' ', _) => ": nothing to draw in either",
+        ('█', _) => ": both in one colour",
+        ('▀', true) => ": the block in the upper one's colour, its ground in the lower one's",
+        ('▄', true) => ": the block in the lower one's colour, its ground in the upper one's",
+        ('▀' | '"', false) => ": only the upper one is drawn",
+        ('▄' | ',', false) => ": only the lower one is drawn",
+        ('#', _) => ": both are drawn",
+        _ if drawn.view == View::Class => {
+            ": a half for a line that crosses, a quarter for one that touches"
+        }
+        _ => "",
     }
 }
 
@@ -349,6 +393,38 @@ mod tests {
         include_str!("../../render/ink.rs"),
         include_str!("../../render/image.rs"),
     ];
+
+    #[test]
+    fn the_shade_is_the_same_number_in_every_view() {
+        let scene = Builtin::Seed.scene();
+        let shades = [View::Shade, View::Class, View::Depth].map(|view| {
+            let (size, shape) = fit(&scene, Style::Half, 40, 20, 2.0);
+            let rays = Rays::new(&scene.camera, size, shape);
+            let mut frame = Frame::new();
+            frame.render(&scene, &rays, Method::Exact, view);
+            let mut image = Image::new();
+            let look = Look {
+                style: Style::Half,
+                depth: ColorDepth::None,
+                ascii_only: false,
+            };
+            image.draw(&frame, &scene, look);
+            let reading = Reading::take(
+                &scene,
+                (15, 20),
+                rays.ray(15, 20),
+                Method::Exact,
+                None,
+                None,
+            );
+            let drawn = Drawn::at((15, 20), &frame, &image, Style::Half);
+            let steps = derivation(&reading, &scene, &rays, &drawn);
+            let shade = steps.iter().find(|step| step.name == "shade");
+            shade.expect("a shade").result.clone()
+        });
+        assert!(shades[0].ends_with("= 0.882"), "{}", shades[0]);
+        assert_eq!([&shades[1], &shades[2]], [&shades[0]; 2]);
+    }
 
     #[test]
     fn every_step_has_a_line_of_code_that_is_in_the_program() {
