@@ -14,15 +14,8 @@ use crate::terminal::Capability;
 #[derive(Debug, Args)]
 #[command(next_help_heading = "How it is drawn")]
 pub(super) struct Appearance {
-    /// How many colours; auto: as many as the terminal has
-    #[arg(
-        long,
-        value_name = "WHEN",
-        env = "RAYSCOPE_COLOR",
-        hide_env_values = true,
-        default_value = "auto"
-    )]
-    color: ColorChoice,
+    #[command(flatten)]
+    color: Color,
 
     /// The colours for a kind of screen [default: dark, or light where the terminal tells of a light
     /// ground]
@@ -36,6 +29,20 @@ pub(super) struct Appearance {
     /// Converse in lines of text, without a screen: for screen readers, pipes and scripts
     #[arg(long)]
     pub(super) plain: bool,
+}
+
+/// The flag for colours.
+#[derive(Debug, Args)]
+pub(super) struct Color {
+    /// How many colours; auto: as many as the terminal has, in a pipe or file none
+    #[arg(
+        long,
+        value_name = "WHEN",
+        env = "RAYSCOPE_COLOR",
+        hide_env_values = true,
+        default_value = "auto"
+    )]
+    pub(super) color: ColorChoice,
 }
 
 /// How many colours, as it is asked for.
@@ -86,7 +93,7 @@ impl Appearance {
             }
         } else {
             let found = Capability::detect().map_err(|unfit| (INVALID, unfit.0.to_owned()))?;
-            self.color.over(found)
+            self.color.color.over(found)
         };
         let mut reasons = Reasons {
             depth: capability.depth_reason,

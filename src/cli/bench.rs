@@ -1,36 +1,25 @@
 //! `rayscope bench`: error against run time.
 
-use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::plan::buffer_of;
 use super::progress::{INTERRUPTED, Progress};
-use super::{INVALID, choice, complain, save, seed, whole, write_out};
+use super::sweep::{Format, Sweep};
+use super::{INVALID, complain, save, whole, written};
 use crate::lab::bench::{self, MOST_TIMED, Plan, Report, Sample};
 use crate::lab::timing::{Schedule, SelfCheck, SystemClock};
 use crate::lab::{Alone, Family, Machine, frames, plot};
-use crate::method::Method;
 use crate::render::{CELL_ASPECT, ColorDepth, Image, Style, fit};
 use crate::scene::{Rays, Scene};
 use crate::terminal::{Limits, Painter};
 
 /// Measure the methods: wrong answers, errors in ulp, nanoseconds
 #[derive(Debug, Args)]
-#[expect(clippy::struct_excessive_bools, reason = "flags of a command line")]
 pub(super) struct Bench {
-    /// Fewer rays and rounds: seconds instead of minutes
-    #[arg(long)]
-    quick: bool,
-
-    /// What the rays are drawn from; the same seed gives the same rays everywhere
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = seed, allow_negative_numbers = true)]
-    seed: u64,
-
-    /// Only these methods, separated by commas
-    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = choice(&Method::ALL, Method::name))]
-    method: Vec<Method>,
+    #[command(flatten)]
+    sweep: Sweep,
 
     /// Only these families of rays, separated by commas
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = family())]
@@ -52,14 +41,6 @@ pub(super) struct Bench {
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole(1_u32, 10_000_000))]
     rays: Option<u32>,
 
-    /// Also draw a chart, as SVG
-    #[arg(long, value_name = "FILE")]
-    plot: Option<PathBuf>,
-
-    /// How the report is written
-    #[arg(long, value_enum, default_value_t = Format::Text)]
-    format: Format,
-
     /// Text: leave out the inputs of the largest errors
     #[arg(long)]
     brief: bool,
@@ -67,14 +48,6 @@ pub(super) struct Bench {
     /// Exit with status 1 if a self-check of the timing fails
     #[arg(long)]
     strict: bool,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
-    Text,
-    Csv,
-    Json,
-    Markdown,
 }
 
 fn family() -> impl clap::builder::TypedValueParser<Value = &'static Family> {
@@ -97,17 +70,14 @@ pub(super) fn run(arguments: &Bench) -> ExitCode {
     };
     let mut progress = match Progress::new("bench", samples.len()) {
         Ok(progress) => progress,
-        Err(error) => {
-            complain(format_args!("signals: {error}"));
-            return ExitCode::from(INVALID);
-        }
+        Err(status) => return status,
     };
     // Where that can't be found out, the other self-checks have to do.
     let alone = Alone::take();
     let mut report = bench::run(
         plan(arguments),
         &samples,
-        arguments.seed,
+        arguments.sweep.seed,
         &SystemClock::new(),
         |number, name| progress.go_on(number, name),
     );
@@ -119,16 +89,10 @@ pub(super) fn run(arguments: &Bench) -> ExitCode {
     );
     drop(alone);
     progress.clear();
-    let drawn = save(arguments.plot.as_deref(), || {
+    let drawn = save(arguments.sweep.plot.as_deref(), || {
         plot::work_precision(&report, &Machine::detect())
     });
-    let written = match in_format(&report, arguments) {
-        Ok(text) => write_out(&text),
-        Err(sentence) => {
-            complain(sentence);
-            ExitCode::from(INVALID)
-        }
-    };
+    let written = written(in_format(&report, arguments));
     if progress.interrupted() {
         ExitCode::from(INTERRUPTED)
     } else if arguments.strict && !report.times_trusted() || drawn.is_err() {
@@ -140,9 +104,9 @@ pub(super) fn run(arguments: &Bench) -> ExitCode {
 
 /// Measures whole frames instead of single rays.
 fn run_frames(arguments: &Bench) -> ExitCode {
-    let mut schedule = frames::Schedule::new(arguments.quick, arguments.seed);
-    if !arguments.method.is_empty() {
-        schedule.methods.clone_from(&arguments.method);
+    let mut schedule = frames::Schedule::new(arguments.sweep.quick, arguments.sweep.seed);
+    if let Some(methods) = arguments.sweep.named() {
+        schedule.methods = methods.into();
     }
     if !arguments.counts.is_empty() {
         schedule.counts = arguments.counts.iter().map(|&n| n as usize).collect();
@@ -150,10 +114,7 @@ fn run_frames(arguments: &Bench) -> ExitCode {
     }
     let mut progress = match Progress::new("bench", schedule.rows()) {
         Ok(progress) => progress,
-        Err(error) => {
-            complain(format_args!("signals: {error}"));
-            return ExitCode::from(INVALID);
-        }
+        Err(status) => return status,
     };
     // No explorer of this host should time its picture meanwhile.
     let _alone = Alone::take();
@@ -165,19 +126,13 @@ fn run_frames(arguments: &Bench) -> ExitCode {
     );
     progress.clear();
     let machine = Machine::detect();
-    let text = match arguments.format {
+    let text = match arguments.sweep.format {
         Format::Text => Ok(frames::table(&report, &machine)),
         Format::Markdown => Ok(frames::markdown(&report, &machine)),
         Format::Csv => frames::csv(&report).map_err(|e| format!("CSV: {e}")),
         Format::Json => frames::json(&report, &machine).map_err(|e| format!("JSON: {e}")),
     };
-    let written = match text {
-        Ok(text) => write_out(&text),
-        Err(sentence) => {
-            complain(sentence);
-            ExitCode::from(INVALID)
-        }
-    };
+    let written = written(text);
     if progress.interrupted() {
         ExitCode::from(INTERRUPTED)
     } else {
@@ -198,40 +153,41 @@ impl frames::Output for Screen {
 
 fn plan(arguments: &Bench) -> Plan<'_> {
     Plan {
-        methods: if arguments.method.is_empty() {
-            &Method::ALL
-        } else {
-            &arguments.method
-        },
+        methods: arguments.sweep.methods(),
         schedule: Schedule {
-            rounds: if arguments.quick { 15 } else { 101 },
-            seed: arguments.seed,
+            rounds: if arguments.sweep.quick { 15 } else { 101 },
+            seed: arguments.sweep.seed,
         },
     }
 }
 
 fn samples(arguments: &Bench) -> Result<Vec<Sample>, String> {
-    let usual = if arguments.quick { 2048 } else { 16_384 };
+    let usual = if arguments.sweep.quick { 2048 } else { 16_384 };
     let rays = arguments.rays.map_or(usual, |rays| rays as usize);
     if let Some(name) = &arguments.scene {
         let (scene, _) = Scene::open(name).map_err(|e| e.to_string())?;
         let (size, shape) = fit(&scene, Style::Half, 80, 24, CELL_ASPECT);
         let own = Rays::new(&scene.camera, size, shape);
         let most = rays.max(MOST_TIMED);
-        return Ok(vec![Sample::of_scene(&scene, &own, arguments.seed, most)]);
+        return Ok(vec![Sample::of_scene(
+            &scene,
+            &own,
+            arguments.sweep.seed,
+            most,
+        )]);
     }
     let chosen: Vec<&Family> = if arguments.family.is_empty() {
         Family::ALL.iter().collect()
     } else {
         arguments.family.clone()
     };
-    let sample = |family: &Family| Sample::of_family(family, arguments.seed, rays);
+    let sample = |family: &Family| Sample::of_family(family, arguments.sweep.seed, rays);
     Ok(chosen.into_iter().map(sample).collect())
 }
 
 fn in_format(report: &Report, arguments: &Bench) -> Result<String, String> {
     let machine = Machine::detect();
-    match arguments.format {
+    match arguments.sweep.format {
         Format::Text => Ok(bench::table(report, &machine, !arguments.brief)),
         Format::Markdown => Ok(bench::markdown(report, &machine)),
         Format::Csv => bench::csv(report, &machine).map_err(|e| format!("CSV: {e}")),

@@ -12,6 +12,7 @@ mod progress;
 mod scenes;
 mod solve;
 mod stress;
+mod sweep;
 mod tour;
 mod variables;
 mod worksheet;
@@ -148,6 +149,17 @@ fn write_out(text: &str) -> ExitCode {
         Err(error) if error.kind() == ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(error) => {
             complain(format_args!("standard output: {error}"));
+            ExitCode::from(INVALID)
+        }
+    }
+}
+
+/// Writes a report to standard output, or says why there is none.
+fn written(report: Result<String, String>) -> ExitCode {
+    match report {
+        Ok(text) => write_out(&text),
+        Err(sentence) => {
+            complain(sentence);
             ExitCode::from(INVALID)
         }
     }

@@ -7,7 +7,7 @@ use std::process::ExitCode;
 use clap::Args;
 use crossterm::terminal::window_size;
 
-use super::appearance::{ColorChoice, default_style};
+use super::appearance::{Color, default_style};
 use super::{INVALID, MISUSED, aspect, choice, complain, write_out};
 use crate::explain::{self, Digits, Drawn, Glyphs, Reading};
 use crate::method::Method;
@@ -39,15 +39,8 @@ pub(super) struct Print {
     #[arg(long, env = "RAYSCOPE_METHOD", hide_env_values = true, value_parser = choice(&Method::ALL, Method::name), default_value_t = Method::default())]
     method: Method,
 
-    /// How many colours; auto: as many as the terminal has, in a pipe or file none
-    #[arg(
-        long,
-        value_name = "WHEN",
-        env = "RAYSCOPE_COLOR",
-        hide_env_values = true,
-        default_value = "auto"
-    )]
-    color: ColorChoice,
+    #[command(flatten)]
+    color: Color,
 
     /// Height of a character cell over its width
     #[arg(long, default_value_t = CELL_ASPECT, value_parser = aspect)]
@@ -76,7 +69,7 @@ pub(super) fn run(arguments: &Print) -> ExitCode {
 /// What is asked for, or an exit status and the reason.
 fn text(arguments: &Print) -> Result<String, (u8, String)> {
     let (scene, _) = Scene::open(&arguments.scene).map_err(|e| (INVALID, e.to_string()))?;
-    let capability = arguments.color.over(Capability::of_output());
+    let capability = arguments.color.color.over(Capability::of_output());
     let style = arguments
         .style
         .unwrap_or_else(|| default_style(capability.depth, capability.glyphs));

@@ -1,8 +1,11 @@
 //! How a long run tells how far it is, and how Ctrl-C ends it.
 
 use std::io::{IsTerminal as _, Write as _};
+use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+
+use super::{INVALID, complain};
 
 /// 128 + SIGINT.
 pub(super) const INTERRUPTED: u8 = 130;
@@ -17,7 +20,15 @@ pub(super) struct Progress {
 }
 
 impl Progress {
-    pub fn new(what: &'static str, all: usize) -> std::io::Result<Self> {
+    /// A run of `all` parts that is about to begin; else says why not, and with which exit status.
+    pub fn new(what: &'static str, all: usize) -> Result<Self, ExitCode> {
+        Self::heeding(what, all).map_err(|error| {
+            complain(format_args!("signals: {error}"));
+            ExitCode::from(INVALID)
+        })
+    }
+
+    fn heeding(what: &'static str, all: usize) -> std::io::Result<Self> {
         let interrupt = Arc::new(AtomicBool::new(false));
         // Pressed twice, Ctrl-C ends the program at once.
         let signal = signal_hook::consts::SIGINT;

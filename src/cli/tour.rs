@@ -9,7 +9,7 @@ use clap::Args;
 
 use super::appearance::Appearance;
 use super::place::Place;
-use super::{INVALID, MISUSED, aspect, choice, complain, explore, from_one, write_out};
+use super::{INVALID, MISUSED, aspect, choice, complain, explore, from_one, written};
 use crate::explorer::tour::{self, Chapter};
 use crate::explorer::{Explorer, Opening, Options};
 use crate::method::Method;
@@ -57,13 +57,7 @@ pub(super) struct Tour {
 /// Opens the tour, or lists its chapters.
 pub(super) fn run(arguments: &Tour) -> ExitCode {
     if arguments.list {
-        return match chapters(&arguments.chapter) {
-            Ok((chapters, _)) => write_out(&list(&chapters)),
-            Err(sentence) => {
-                complain(sentence);
-                INVALID.into()
-            }
-        };
+        return written(chapters(&arguments.chapter).map(|(chapters, _)| list(&chapters)));
     }
     let appearance = &arguments.appearance;
     match opened(arguments, |options| appearance.fitted(options)) {

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 use clap::{Args, ValueEnum};
 
 use super::print::size;
-use super::{INVALID, complain, seed, whole, write_out};
+use super::{seed, whole, written};
 use crate::explain::worksheet::{self, Part};
 use crate::render::{CELL_ASPECT, Style, fit};
 use crate::scene::{PixelShape, Rays, Scene, Size};
@@ -62,13 +62,8 @@ const SIZE: Size = Size::new(40, 40);
 
 /// Writes the worksheet, or why there is none.
 pub(super) fn run(arguments: &Worksheet) -> ExitCode {
-    match text(arguments) {
-        Ok(text) => write_out(&Capability::of_output().glyphs.spell(&text)),
-        Err(sentence) => {
-            complain(sentence);
-            INVALID.into()
-        }
-    }
+    let glyphs = Capability::of_output().glyphs;
+    written(text(arguments).map(|text| glyphs.spell(&text)))
 }
 
 fn text(arguments: &Worksheet) -> Result<String, String> {

@@ -11,7 +11,7 @@ use std::process::ExitCode;
 
 pub(super) use input::number;
 
-use super::{INVALID, choice, complain, write_out};
+use super::{INVALID, choice, complain, written};
 use crate::method::Method;
 
 /// Work out where a line meets a sphere, step by step, or for a whole file of them
@@ -62,13 +62,8 @@ pub(super) fn run(arguments: &Solve) -> ExitCode {
     match (&arguments.batch, &arguments.ray, &arguments.sphere) {
         (Some(file), ..) => run_batch(file, arguments.method),
         (None, Some(ray), Some(sphere)) => {
-            match single::written(ray, sphere, arguments.method, arguments.format) {
-                Ok(text) => write_out(&text),
-                Err(reason) => {
-                    complain(reason);
-                    INVALID.into()
-                }
-            }
+            let derivation = single::written(ray, sphere, arguments.method, arguments.format);
+            written(derivation)
         }
         // The parser asks for the two unless there is a batch.
         _ => ExitCode::SUCCESS,

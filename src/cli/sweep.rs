@@ -1,0 +1,53 @@
+//! What the long measurements, `bench` and `stress`, are asked alike.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::{choice, seed};
+use crate::method::Method;
+
+/// How much is measured, of what, and how it is told.
+#[derive(Debug, Args)]
+pub(super) struct Sweep {
+    /// Fewer rays and rounds: seconds instead of minutes
+    #[arg(long)]
+    pub quick: bool,
+
+    /// What the rays are drawn from; the same seed gives the same rays everywhere
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = seed, allow_negative_numbers = true)]
+    pub seed: u64,
+
+    /// Only these methods, separated by commas
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = choice(&Method::ALL, Method::name))]
+    method: Vec<Method>,
+
+    /// Also draw a chart, as SVG
+    #[arg(long, value_name = "FILE")]
+    pub plot: Option<PathBuf>,
+
+    /// How the report is written
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    pub format: Format,
+}
+
+/// How a report is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Format {
+    Text,
+    Csv,
+    Json,
+    Markdown,
+}
+
+impl Sweep {
+    /// The methods that are asked for by name, if any is.
+    pub fn named(&self) -> Option<&[Method]> {
+        (!self.method.is_empty()).then_some(&self.method)
+    }
+
+    /// The methods that are asked for: all, if none is named.
+    pub fn methods(&self) -> &[Method] {
+        self.named().unwrap_or(&Method::ALL)
+    }
+}
