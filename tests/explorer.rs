@@ -661,6 +661,19 @@ fn a_picture_that_is_cut_shows_its_middle() {
 }
 
 #[test]
+fn no_sentence_of_a_step_ends_in_its_middle() {
+    for rows in 18..30 {
+        let mut person = Person::opens("trio", 80, rows);
+        person.commands("method citardauq").commands("step D");
+        let screen = person.screen();
+        let first = "The discriminant, Δ/4: its sign";
+        if screen.contains(first) {
+            assert!(screen.contains("│ sphere."), "{screen}");
+        }
+    }
+}
+
+#[test]
 fn lines_that_have_no_room_are_counted_and_come_by_scrolling() {
     let mut person = Person::opens("trio", 80, 24);
     person.shows("9 more lines: pagedown");

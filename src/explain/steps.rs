@@ -186,7 +186,8 @@ pub fn steps_text(steps: &[Step], width: usize) -> String {
 /// Where a step's lines stand under its name.
 const INDENT: &str = "    ";
 
-/// Text in lines of at most `width` characters; lines after the first stand under it.
+/// Text in lines of at most `width` characters; lines after the first stand under it, and go with it:
+/// a sentence that ends in its middle says less than none.
 fn wrapped(text: &str, width: usize, role: Role, lead: &str, spare: u8) -> Vec<Line> {
     let room = width.saturating_sub(lead.chars().count()).max(1);
     wrap(text, room)
@@ -198,7 +199,12 @@ fn wrapped(text: &str, width: usize, role: Role, lead: &str, spare: u8) -> Vec<L
             } else {
                 " ".repeat(lead.chars().count())
             };
-            Line::new(spare).with(Role::Plain, lead).with(role, part)
+            let line = if i == 0 {
+                Line::new(spare)
+            } else {
+                Line::joined(spare)
+            };
+            line.with(Role::Plain, lead).with(role, part)
         })
         .collect()
 }
