@@ -342,6 +342,14 @@ const ABSURD: &[(&str, &str)] = &[
     ("bench --rays 1e3", "from 1 to 10000000"),
     ("bench --frames --counts 0", "from 1 to 3000000"),
     ("bench --family none", "'--family <NAMES>'"),
+    (
+        "bench --brief --format json",
+        "--brief: only the text report",
+    ),
+    (
+        "seed --plain --compare exact",
+        "--compare exact: expected another method",
+    ),
     ("stress --rays -5", "from 1 to 1000000"),
     ("stress --dial none", "'--dial <NAMES>'"),
     (

@@ -807,6 +807,13 @@ fn the_board_shows_one_step_and_hides_its_answer() {
     let hidden = person.screen();
     let revealed = person.presses("enter").screen();
     assert_ne!(hidden, revealed);
+    person
+        .commands("step Δ")
+        .shows("Is Δ negative, zero or positive?");
+    person.shows("- negative 0 zero + positive");
+    person.presses("+").shows("Yes, positive");
+    assert!(!person.explorer.is_changed(), "the camera has not zoomed");
+    person.commands("step C").presses("enter");
     insta::assert_snapshot!("board_hidden_80x24", hidden);
     insta::assert_snapshot!("board_revealed_80x24", revealed);
     person.presses("O").shows("view 40×40");

@@ -7,7 +7,7 @@ use clap::Args;
 use super::plan::buffer_of;
 use super::progress::{INTERRUPTED, Progress};
 use super::sweep::{Format, Sweep};
-use super::{INVALID, complain, save, whole, written};
+use super::{INVALID, MISUSED, complain, save, whole, written};
 use crate::lab::bench::{self, MOST_TIMED, Plan, Report, Sample};
 use crate::lab::timing::{Schedule, SelfCheck, SystemClock};
 use crate::lab::{Alone, Family, Machine, frames, plot};
@@ -60,6 +60,10 @@ fn family() -> impl clap::builder::TypedValueParser<Value = &'static Family> {
 pub(super) fn run(arguments: &Bench) -> ExitCode {
     if arguments.frames {
         return run_frames(arguments);
+    }
+    if arguments.brief && arguments.sweep.format != Format::Text {
+        complain("--brief: only the text report lists inputs; expected --format text beside it");
+        return ExitCode::from(MISUSED);
     }
     let samples = match samples(arguments) {
         Ok(samples) => samples,

@@ -75,9 +75,7 @@ pub fn question_lines(question: Question, width: usize, glyphs: Glyphs) -> Vec<L
     let mut out = vec![Line::new(4)];
     let text = glyphs.spell(question.text());
     out.extend(wrapped(&text, width, Role::Label, "", 0));
-    let answers = question.answers();
-    let keys = answers.map(|(key, word)| format!("{key} {word}"));
-    out.extend(wrapped(&keys.join("   "), width, Role::Plain, "", 0));
+    out.extend(wrapped(&question.keys(), width, Role::Plain, "", 0));
     out
 }
 

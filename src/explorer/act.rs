@@ -184,6 +184,11 @@ impl Explorer {
             Command::Step(name) => self.go_to_step_named(&name),
             Command::At(t) => self.scrubbed = Some(t),
             Command::Tour(chapter) => self.tour_to(&chapter),
+            Command::Compare(method) if method == self.options.method => {
+                self.warn(format!(
+                    "compare: {method} is the chosen method, expected another one"
+                ));
+            }
             Command::Compare(method) => {
                 self.other_method = Some(method);
                 self.panel = Panel::Compare;

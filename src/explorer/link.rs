@@ -57,6 +57,12 @@ impl Explorer {
         let chosen = numbered("shown", opening.shown)?;
         let scene = with_numbers(self.scene(), selected, &opening.set)?;
         let target = target(opening, scene.pixels)?;
+        let method = opening.method.unwrap_or(self.options.method);
+        if opening.compare == Some(method) {
+            return Err(format!(
+                "--compare {method}: expected another method than {method}, which is chosen"
+            ));
+        }
         if scene != *self.scene() {
             self.document = Document::new(scene);
             self.picture.forget();

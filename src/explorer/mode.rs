@@ -134,7 +134,7 @@ impl Explorer {
         }
         match std::mem::replace(&mut self.mode, Mode::Normal) {
             Mode::Normal => {
-                if self.prediction.on {
+                if self.prediction.on || self.board {
                     self.refresh();
                 }
                 if self.answer_prediction(key) {

@@ -302,9 +302,11 @@ impl Explorer {
         // The result is what the back row must read: it has the larger part.
         let y = large::draw(pen, room, room.y + 1, room.height / 4, &step.formula);
         let y = large::draw(pen, room, y + 1, room.height / 2, &format!("= {result}"));
-        let question = step.question.filter(|_| self.is_hidden());
+        let question = self.pending_question();
+        let answers = question.map_or_else(String::new, Question::keys);
         let small = [
             (question.map_or("", Question::text), Theme::strong()),
+            (answers.as_str(), Theme::strong()),
             (step.numbers_beside(self.is_hidden()), Theme::faint()),
             (step.why.as_str(), Theme::plain()),
         ];

@@ -134,8 +134,10 @@ impl Explorer {
 
     /// The question that waits for an answer.
     pub(super) fn pending_question(&self) -> Option<Question> {
-        let asked = self.prediction.on && self.is_hidden() && self.panel == Panel::Steps;
-        self.current_step().filter(|_| asked)?.question
+        let shown = self.board || (self.prediction.on && self.panel == Panel::Steps);
+        self.current_step()
+            .filter(|_| shown && self.is_hidden())?
+            .question
     }
 
     /// Takes a key as the answer to the question on the screen; false if it is none.

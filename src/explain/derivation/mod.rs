@@ -111,6 +111,13 @@ impl Question {
         }
     }
 
+    /// The keys with their answers, in a line.
+    pub fn keys(self) -> String {
+        self.answers()
+            .map(|(key, word)| format!("{key} {word}"))
+            .join("   ")
+    }
+
     /// The place of the right answer; none where the method has no answer.
     pub fn right(self, subject: &Subject) -> Option<usize> {
         let class = match subject.solution.class {
