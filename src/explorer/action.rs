@@ -327,6 +327,7 @@ pub const FOOTER: &[(&str, &str)] = &[
     ("enter", "steps"),
     ("v", "view"),
     ("m", "method"),
+    ("f", "tour"),
     (":", "command"),
     ("?", "help"),
     ("q", "quit"),
