@@ -680,7 +680,7 @@ fn lines_that_have_no_room_are_counted_and_come_by_scrolling() {
     assert!(!person.screen().contains("cos θ"));
     person
         .presses("pagedown")
-        .shows("= 0.0076² + (−0.17)² + (−0.99)²");
+        .shows("= 0.007643² + 0.1719² + 0.9851²");
     person.presses("pagedown pagedown pagedown").shows("cos θ");
     person
         .presses("pageup pageup pageup pageup")

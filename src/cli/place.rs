@@ -75,7 +75,7 @@ mod tests {
     use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 
     use super::super::{Arguments, Command, explore, tour};
-    use crate::explain::{Digits, lines, plain_text};
+    use crate::explain::{Digits, Glyphs, lines, plain_text};
     use crate::explorer::{Explorer, Options, command_line};
 
     /// Opens what a command line asks for, on a screen of 80 by 24.
@@ -109,7 +109,12 @@ mod tests {
 
     /// What a person sees of an explorer, but for the message.
     fn seen(explorer: &Explorer) -> String {
-        let lines = lines(explorer.reading().unwrap(), 80, Digits::Full);
+        let lines = lines(
+            explorer.reading().unwrap(),
+            80,
+            Digits::Full,
+            Glyphs::Unicode,
+        );
         let scene = explorer.scene().to_toml();
         let Options {
             method,

@@ -129,7 +129,12 @@ fn title(reading: &Reading, size: Size) -> String {
 
 /// What the side panel of the explorer shows for a pixel.
 fn panel(reading: &Reading) -> String {
-    let lines = explain::lines(reading, DEFAULT_ROOM.0 as usize, Digits::Full);
+    let lines = explain::lines(
+        reading,
+        DEFAULT_ROOM.0 as usize,
+        Digits::Full,
+        Glyphs::Unicode,
+    );
     explain::plain_text(&lines)
 }
 

@@ -17,7 +17,7 @@ use std::cmp::Ordering;
 use glam::Vec3;
 
 use super::wrap;
-use super::{Digits, Ink, Meeting, Reading, Subject, Wrong, number, vector};
+use super::{Digits, Glyphs, Ink, Meeting, Reading, Subject, Wrong, number, vector};
 use crate::method::format::Signs;
 use crate::method::trace::{Measured, error_text};
 use crate::method::{Class, Coefficients, Place, Precision, Solution, Trace};
@@ -31,6 +31,9 @@ pub struct Line {
     pub spare: u8,
     /// It says nothing without the line before it, and goes when that goes; the reverse, too.
     pub is_joined: bool,
+    /// It is blank, and keeps the place of a line that other numbers would have: while they change,
+    /// those below it stay where they are.
+    pub keeps_place: bool,
 }
 
 /// A piece of text that plays one role.
@@ -70,9 +73,8 @@ pub enum Role {
 impl Line {
     pub(super) fn new(spare: u8) -> Self {
         Self {
-            spans: Vec::new(),
             spare,
-            is_joined: false,
+            ..Self::default()
         }
     }
 
@@ -81,6 +83,14 @@ impl Line {
         Self {
             is_joined: true,
             ..Self::new(spare)
+        }
+    }
+
+    /// A blank line in the place of one that is not there now.
+    fn place() -> Self {
+        Self {
+            keeps_place: true,
+            ..Self::default()
         }
     }
 
@@ -154,10 +164,11 @@ const RADIUS_LABEL: &str = "   r ";
 /// Where the formula with the numbers put in starts.
 const SUBSTITUTED: usize = 2;
 
-/// The panel for a reading, in lines of at most `width` characters where that is possible.
-pub fn lines(reading: &Reading, width: usize, digits: Digits) -> Vec<Line> {
+/// The panel for a reading, in lines of at most `width` characters where that is possible, once they are
+/// spelt in `glyphs`.
+pub fn lines(reading: &Reading, width: usize, digits: Digits, glyphs: Glyphs) -> Vec<Line> {
     let mut out = Vec::new();
-    let in_room = |v| fitting_vector(v, width.saturating_sub(LABEL_WIDTH), digits);
+    let in_room = |v| columned_vector(v, width.saturating_sub(LABEL_WIDTH), digits);
     out.push(labelled("p0", &in_room(reading.ray.origin), 0));
     out.push(labelled("d", &in_room(reading.ray.direction), 0));
     let Some(subject) = &reading.subject else {
@@ -167,7 +178,7 @@ pub fn lines(reading: &Reading, width: usize, digits: Digits) -> Vec<Line> {
     };
     out.extend(subject_lines(subject, reading.spheres, width, digits));
     out.push(Line::new(5));
-    out.extend(coefficient_lines(reading, subject, width, digits));
+    out.extend(coefficient_lines(reading, subject, width, digits, glyphs));
     out.extend(verdict_lines(subject, width, digits));
     out.extend(wrong_lines(reading, width));
     out.extend(sight_lines(subject, width, digits));
@@ -234,6 +245,22 @@ fn fitting_vector(v: Vec3, room: usize, digits: Digits) -> String {
         .map_or_else(|| vector(v, Digits::Significant(3)), |d| vector(v, d))
 }
 
+/// Columns that a number of a vector takes where there is room for three.
+const NUMBER: usize = 13;
+
+/// As [`fitting_vector`], its numbers in columns where there is room and they are not in full: what
+/// changes then changes in its place, and is easier to compare.
+fn columned_vector(v: Vec3, room: usize, digits: Digits) -> String {
+    let plain = fitting_vector(v, room, digits);
+    let numbers: Vec<_> = plain.split_inclusive(", ").collect();
+    let in_columns = |n: &&str| n.chars().count() <= NUMBER;
+    if digits == Digits::Full || room < 3 * NUMBER || !numbers.iter().all(in_columns) {
+        return plain;
+    }
+    let padded: Vec<_> = numbers.iter().map(|n| format!("{n:NUMBER$}")).collect();
+    padded.concat().trim_end().to_owned()
+}
+
 fn subject_lines(subject: &Subject, spheres: usize, width: usize, digits: Digits) -> Vec<Line> {
     let mut title = format!("sphere {} of {spheres}", subject.body + 1);
     if let Some(name) = &subject.name {
@@ -255,7 +282,7 @@ fn subject_lines(subject: &Subject, spheres: usize, width: usize, digits: Digits
             .to(LABEL_WIDTH)
             .with(
                 Role::Value,
-                fitting_vector(subject.sphere.center, room, digits),
+                columned_vector(subject.sphere.center, room, digits),
             )
             .with(Role::Label, RADIUS_LABEL)
             .with(Role::Value, radius),
@@ -267,6 +294,7 @@ fn coefficient_lines(
     subject: &Subject,
     width: usize,
     digits: Digits,
+    glyphs: Glyphs,
 ) -> Vec<Line> {
     let Coefficients {
         precision,
@@ -284,6 +312,11 @@ fn coefficient_lines(
         .map(f64::from);
     let r = f64::from(subject.sphere.radius);
     let squares = |v: [f64; 3], n| v.map(|x| format!("{}²", in_brackets(x, n))).join(" + ");
+    // Where room is short the signs, which squares lose, go first.
+    let length = |n| match n {
+        MOST_PUT_IN.. => squares(d, n),
+        _ => squares(d.map(f64::abs), n),
+    };
     let product = |n| {
         let terms = [0, 1, 2].map(|i| format!("{}·{}", in_brackets(d[i], n), in_brackets(o[i], n)));
         format!("2({})", terms.join(" + "))
@@ -302,19 +335,23 @@ fn coefficient_lines(
         format!("{} − {}", both[0], both[1])
     };
     let dot = |n| format!("2·{}", in_brackets(b / 2.0, n));
+    let room = Room {
+        chars: width.saturating_sub(SUBSTITUTED + 2),
+        glyphs,
+    };
     let rows = [
-        ("A", "d·d", widest(width, &|n| squares(d, n), None), a),
-        ("B", "2 d·(p0−c)", widest(width, &product, Some(&dot)), b),
+        ("A", "d·d", room.widest(&length, &length), a),
+        ("B", "2 d·(p0−c)", room.widest(&product, &dot), b),
         (
             "C",
             "|p0−c|² − r²",
-            widest(width, &distance, Some(&short_distance)),
+            room.widest(&distance, &short_distance),
             c,
         ),
         (
             "Δ",
             "B² − 4AC",
-            widest(width, &discriminant_of, Some(&short_difference)),
+            room.widest(&discriminant_of, &short_difference),
             discriminant,
         ),
     ];
@@ -335,15 +372,24 @@ fn coefficient_lines(
                 .to(SUBSTITUTED)
                 .with(Role::Faint, format!("= {substituted}")),
         );
-        out.extend(exact_line(measured, width));
+        // The class hangs on Δ alone.
+        let spare = if label == "Δ" { 4 } else { 6 };
+        out.push(exact_line(Some(measured), width, spare));
     }
     out
 }
 
-/// What the number should be, and how far off it is; nothing if it is right.
-fn exact_line(measured: &Measured, width: usize) -> Option<Line> {
-    let ulps = measured.ulps().filter(|&ulps| ulps != 0.0)?;
-    let off = format!("  {}", error_text(ulps, measured.precision, SIGNS));
+/// What the number should be, and how far off it is; if it is right, or not there, the place for that.
+/// A number that is merely rounded may be spared so far.
+fn exact_line(measured: Option<&Measured>, width: usize, spare: u8) -> Line {
+    let off = |measured: &Measured| measured.ulps().filter(|&ulps| ulps != 0.0);
+    let inexact = measured.and_then(|m| Some((m, off(m)?)));
+    let line = inexact.and_then(|(m, ulps)| off_line(m, ulps, width, spare));
+    line.unwrap_or_else(Line::place)
+}
+
+fn off_line(measured: &Measured, ulps: f64, width: usize, spare: u8) -> Option<Line> {
+    let off = format!("  {:>OFF$}", error_text(ulps, measured.precision, SIGNS));
     let room = width.saturating_sub(SUBSTITUTED + "exactly ".len() + off.chars().count());
     let exact = (4..=MOST_DIGITS)
         .rev()
@@ -352,7 +398,7 @@ fn exact_line(measured: &Measured, width: usize) -> Option<Line> {
         .or_else(|| measured.exact_text(3, SIGNS))?;
     // A number that is merely rounded is no news; one that is further off is.
     let (role, spare) = if ulps.abs() <= HALF_ULP {
-        (Role::Faint, 4)
+        (Role::Faint, spare)
     } else if ulps.abs() < MANY_ULPS {
         (Role::Faint, 1)
     } else {
@@ -362,6 +408,8 @@ fn exact_line(measured: &Measured, width: usize) -> Option<Line> {
     Some(Line::new(spare).to(SUBSTITUTED).with(role, text))
 }
 
+/// Room for an error in ulp, so that the number before it ends where it did.
+const OFF: usize = 10;
 /// As many digits of an exact value as tell any two neighbours of binary64 apart.
 const MOST_DIGITS: usize = 17;
 /// The error of a number that is the exact value rounded once.
@@ -393,16 +441,26 @@ fn bracketed(value: &str) -> String {
 /// An expression in numbers of that many digits.
 type Expression<'a> = &'a dyn Fn(usize) -> String;
 
-/// The expression with as many digits as the width holds, at least three; else the shorter one.
-fn widest(width: usize, expression: Expression<'_>, shorter: Option<Expression<'_>>) -> String {
-    let room = width.saturating_sub(SUBSTITUTED + 2);
-    let fits = |e: &String| e.chars().count() <= room;
-    let in_full = (3..=7).rev().map(expression).find(fits);
-    let in_short = || (3..=7).rev().map(shorter?).find(fits);
-    in_full
-        .or_else(in_short)
-        .or_else(|| Some(expression(2)).filter(fits))
-        .unwrap_or_else(|| clip(&shorter.unwrap_or(expression)(2), room.max(8)))
+/// With so many digits at most numbers are put into a formula: the result comes out of them by hand.
+const MOST_PUT_IN: usize = 7;
+
+/// What an expression has to fit into.
+struct Room {
+    chars: usize,
+    glyphs: Glyphs,
+}
+
+impl Room {
+    /// The expression with as many digits as there is room for, at least three; else the shorter one.
+    fn widest(&self, expression: Expression<'_>, shorter: Expression<'_>) -> String {
+        let fits = |e: &String| self.glyphs.spell(e).chars().count() <= self.chars;
+        let in_full = (3..=MOST_PUT_IN).rev().map(expression).find(fits);
+        let in_short = || (3..=MOST_PUT_IN).rev().map(shorter).find(fits);
+        in_full
+            .or_else(in_short)
+            .or_else(|| Some(expression(2)).filter(fits))
+            .unwrap_or_else(|| clip(&shorter(2), self.chars.max(8)))
+    }
 }
 
 /// Text of at most `room` characters, with a mark where it was cut.
@@ -432,11 +490,11 @@ fn verdict_lines(subject: &Subject, width: usize, digits: Digits) -> Vec<Line> {
     }
     if class.meets() {
         let [near, far] = [near, far].map(|t| number(t.into(), Precision::Binary32, digits));
-        let exact = |m: &Option<Measured>| m.as_ref().and_then(|m| exact_line(m, width));
+        let exact = |m: &Option<Measured>| exact_line(m.as_ref(), width, 4);
         out.push(root("near", "(−B − √Δ) / 2A", &near));
-        out.extend(exact(&subject.trace.near));
+        out.push(exact(&subject.trace.near));
         out.push(root("far", "(−B + √Δ) / 2A", &far));
-        out.extend(exact(&subject.trace.far));
+        out.push(exact(&subject.trace.far));
     }
     let words = match subject.solution.place() {
         Some(Place::Hit) => "hit: in front of the eye",
@@ -480,19 +538,27 @@ fn root(label: &str, formula: &str, value: &str) -> Line {
         .with(Role::Value, hang(value))
 }
 
+/// What is there to be compared is shown with one digit less.
+const fn fewer(digits: Digits) -> Digits {
+    match digits {
+        Digits::Significant(n) => Digits::Significant(n - 1),
+        Digits::Full => Digits::Full,
+    }
+}
+
 fn sight_lines(subject: &Subject, width: usize, digits: Digits) -> Vec<Line> {
     let Some(sight) = subject.sight else {
         return Vec::new();
     };
-    let in_room = |v| fitting_vector(v, width.saturating_sub(LABEL_WIDTH), digits);
+    let in_room = |v, digits| columned_vector(v, width.saturating_sub(LABEL_WIDTH), digits);
     let cosine = number(
         sight.cosine.into(),
         Precision::Binary32,
         Digits::Significant(4),
     );
     vec![
-        labelled("p", &in_room(sight.point), 1),
-        labelled("n", &in_room(sight.normal), 1),
+        labelled("p", &in_room(sight.point, digits), 1),
+        labelled("n", &in_room(sight.normal, fewer(digits)), 1),
         Line::new(2)
             .with(Role::Label, "cos θ ")
             .with(Role::Value, cosine),
@@ -532,24 +598,29 @@ const MOST_MEETINGS: usize = 100;
 
 fn meeting_line(meeting: &Meeting, shown: bool, spare: u8, digits: Digits) -> Line {
     let Solution { class, near, far } = meeting.solution;
+    let digits = fewer(digits);
     let [near, far] = [near, far].map(|t| number(t.into(), Precision::Binary32, digits));
+    // The words after the numbers stay where they are while those change.
     let roots = if class == Class::Tangent {
-        format!("t {near}")
+        format!("t {near:<20}")
     } else {
-        format!("t {near}, {far}")
+        format!("t {:<10} {far:<9}", near + ",")
     };
     let mark = if shown { "▸" } else { " " };
     let place = meeting.solution.place().map_or("", Place::name);
     Line::new(spare)
         .with(Role::Label, format!("{mark}{:<4}", meeting.body + 1))
         .with(Role::Value, roots)
-        .with(Role::Faint, format!("  {place}"))
+        .with(Role::Faint, format!(" {place}"))
 }
 
-/// The lines that fit into `height`, the most spare ones left out first.
+/// The lines that fit into `height`, those that keep a place left out first, then the most spare ones.
 ///
 /// What still does not fit is cut at the bottom; the caller marks that it was.
 pub fn fit(mut lines: Vec<Line>, height: usize) -> Vec<Line> {
+    if lines.len() > height {
+        lines.retain(|line| !line.keeps_place);
+    }
     let most = lines.iter().map(|l| l.spare).max().unwrap_or(0);
     for spare in (1..=most).rev() {
         let mut excess = lines.len().saturating_sub(height);
@@ -572,5 +643,6 @@ pub fn fit(mut lines: Vec<Line>, height: usize) -> Vec<Line> {
 
 /// The lines as plain text, each ended by a newline.
 pub fn plain_text(lines: &[Line]) -> String {
-    lines.iter().map(|l| l.text() + "\n").collect()
+    let lines = lines.iter().filter(|line| !line.keeps_place);
+    lines.map(|line| line.text() + "\n").collect()
 }

@@ -140,20 +140,22 @@ pub fn step_list(
         if step.first_heavy {
             name.push('!');
         }
-        if changed.get(i).copied().unwrap_or(false) {
-            name.push('*');
-        }
-        let (role, text) = if i == current {
-            (Role::Current, format!("[{name}]"))
-        } else if step.first_heavy {
-            (Role::Warning, format!(" {name} "))
-        } else {
-            (Role::Faint, format!(" {name} "))
+        // The star has a place of its own, so that the names stay where they are.
+        let is_changed = changed.get(i).copied().unwrap_or(false);
+        let star = if is_changed { '*' } else { ' ' };
+        let (role, text) = match (i == current, step.first_heavy) {
+            (true, _) if is_changed => (Role::Current, format!("[{name}*]")),
+            (true, _) => (Role::Current, format!("[{name}]")),
+            (false, true) => (Role::Warning, format!(" {name}{star}")),
+            (false, false) => (Role::Faint, format!(" {name}{star}")),
         };
         if line.width() + text.chars().count() > width && line.width() > 0 {
             out.push(std::mem::replace(&mut line, Line::new(4)));
         }
         line = line.with(role, text);
+        if i == current && !is_changed {
+            line = line.with(Role::Plain, " ");
+        }
     }
     out.push(line);
     out
@@ -184,12 +186,12 @@ pub fn steps_text(steps: &[Step], width: usize) -> String {
 /// Where a step's lines stand under its name.
 const INDENT: &str = "    ";
 
-/// Text in lines of at most `width` characters; lines after the first stand under it, and go with it:
-/// a sentence that ends in its middle says less than none.
+/// Text, whose lines stay apart, in lines of at most `width` characters; those after the first stand
+/// under it, and go with it: a sentence that ends in its middle says less than none.
 fn wrapped(text: &str, width: usize, role: Role, lead: &str, spare: u8) -> Vec<Line> {
     let room = width.saturating_sub(lead.chars().count()).max(1);
-    wrap(text, room)
-        .into_iter()
+    text.lines()
+        .flat_map(|part| wrap(part, room))
         .enumerate()
         .map(|(i, part)| {
             let lead = if i == 0 {

@@ -106,7 +106,12 @@ impl Pen<'_> {
     pub(super) fn lines(&mut self, area: Rect, lines: &[Line]) {
         for (y, line) in (area.top()..area.bottom()).zip(lines) {
             let mut spelt = self.spelt(line, false);
-            let width: usize = spelt.iter().map(|(text, _)| text.width()).sum();
+            // A number may get longer: its formula is not to jump when it does.
+            let room = |(text, role): &(String, Role)| match role {
+                Role::Value => text.width().max(LONG),
+                _ => text.width(),
+            };
+            let width: usize = spelt.iter().map(room).sum();
             if width > usize::from(area.width) {
                 spelt = self.spelt(line, true);
             }
@@ -147,6 +152,9 @@ const VEILED: Cell = Cell {
     fg: None,
     bg: None,
 };
+
+/// As long as most values are: with its sign and six digits.
+const LONG: usize = 9;
 
 /// What marks a cell with a pixel that is wrong.
 const WRONG: char = '!';
@@ -232,7 +240,11 @@ impl Explorer {
         let strong = Theme::strong();
         let spheres = self.scene().bodies.len();
         let plural = if spheres == 1 { "" } else { "s" };
-        let unsaved = if self.is_changed() { "unsaved  " } else { "" };
+        let unsaved = if self.is_worth_saving() {
+            "unsaved  "
+        } else {
+            ""
+        };
         let right = format!("{unsaved}{spheres} sphere{plural}  ? help ");
         let width = right.width() as u16;
         let room = area.width.saturating_sub(width + 1);

@@ -57,6 +57,8 @@ impl Explorer {
             let before = written(&lines);
             lines = explain::fit(lines, room.height.into());
             left_out = before - written(&lines);
+        } else {
+            lines.retain(|line| !line.keeps_place);
         }
         // Only the panel that the person asked for scrolls.
         let hidden = lines.len().saturating_sub(room.height.into());
@@ -122,7 +124,8 @@ impl Explorer {
 
     fn quadratic_panel(&self, reading: &Reading, room: Rect) -> (String, Vec<Line>) {
         let (x, y) = reading.pixel;
-        let lines = explain::lines(reading, room.width.into(), self.digits());
+        let glyphs = self.options.glyphs;
+        let lines = explain::lines(reading, room.width.into(), self.digits(), glyphs);
         (format!("ray of pixel ({x}, {y})"), lines)
     }
 

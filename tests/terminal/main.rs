@@ -352,8 +352,9 @@ fn the_mouse_is_asked_for_by_a_key_and_given_back() {
     // The cell at the top left of the picture.
     pty.sends("\x1b[<0;2;3M\x1b[<0;2;3m");
     pty.waits_to_show("pixel (0, 0)");
+    pty.waits_to_show("p0   0, 0, 0");
     pty.sends("\x1b[<64;9;9M");
-    pty.waits_to_show("unsaved");
+    pty.waits_for("the wheel", |p| !p.shows("p0   0, 0, 0"));
     pty.sends("$");
     pty.waits_for("the mouse given back", |p| {
         p.screen().mouse_protocol_mode() == vt100::MouseProtocolMode::None

@@ -28,8 +28,9 @@ fn pixel_step(reading: &Reading, scene: &Scene, rays: &Rays) -> Step {
     let vector = |v: DVec3| format!("({})", v.to_array().map(n64).join(", "));
     let eye = v3(scene.camera.position);
     let [ahead, right, down] = [rays.direction, rays.right, rays.down].map(vector);
+    // A line for each vector: a number that gets longer moves no other.
     let shift = format!(
-        "{}·{right} + {}·{down}",
+        "{}·{right} +\n{}·{down}",
         bracketed(&n64(u)),
         bracketed(&n64(v))
     );
@@ -38,7 +39,7 @@ fn pixel_step(reading: &Reading, scene: &Scene, rays: &Rays) -> Step {
             "Every pixel looks from the same eye, each in its own direction: u pixels to the right of \
              the middle and v down.",
             "p0 = eye,  d = forward + u·right + v·down",
-            format!("d = {ahead} + {shift}"),
+            format!("d = {ahead} +\n{shift}"),
             "(self.origin, self.direction + shift)",
         )
     } else {
@@ -46,14 +47,14 @@ fn pixel_step(reading: &Reading, scene: &Scene, rays: &Rays) -> Step {
             "Every pixel looks the same way, each from its own place on the screen: u pixels to the \
              right of the middle and v down.",
             "p0 = eye + u·right + v·down,  d = forward",
-            format!("p0 = {eye} + {shift}"),
+            format!("p0 = {eye} +\n{shift}"),
             "(self.origin + shift, self.direction)",
         )
     };
     Step {
-        numbers: format!("pixel ({x}, {y}) of {}:  {numbers}", rays.size),
+        numbers: format!("pixel ({x}, {y}) of {}:\n{numbers}", rays.size),
         result: format!(
-            "p0 = {},  d = {}",
+            "p0 = {},\nd = {}",
             v3(reading.ray.origin),
             v3(reading.ray.direction)
         ),
