@@ -46,6 +46,7 @@ fn frames_that_follow_each_other_allocate_nothing() {
         style: Style::Half,
         depth: ColorDepth::Ansi256,
         ascii_only: false,
+        coarse: false,
     };
     for method in [Method::Exact, Method::Kahan] {
         for view in View::ALL {

@@ -238,6 +238,7 @@ fn any_size_is_drawn_in_any_style() {
                             style,
                             depth,
                             ascii_only: depth == ColorDepth::None,
+                            coarse: false,
                         };
                         image.draw(&frame, scene, look);
                         assert_eq!(image.cells.len(), (image.cols * image.rows) as usize);
@@ -362,6 +363,7 @@ fn every_view_can_be_read_in_every_style_without_colour() {
                 style,
                 depth: ColorDepth::None,
                 ascii_only: false,
+                coarse: false,
             };
             let image = drawn(&scene, (40, 40), view, look);
             let mut glyphs: Vec<_> = image.cells.iter().map(|c| c.glyph).collect();

@@ -168,6 +168,7 @@ impl Screen {
                 style: arguments.style,
                 depth: ColorDepth::Ansi256,
                 ascii_only: false,
+                coarse: false,
             },
             frame: Frame::new(),
             image: Image::new(),

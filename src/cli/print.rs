@@ -90,6 +90,7 @@ fn text(arguments: &Print) -> Result<String, (u8, String)> {
                     style,
                     depth: ColorDepth::None,
                     ascii_only: glyphs == Glyphs::Ascii,
+                    coarse: false,
                 };
                 steps(&scene, &rays, arguments, &reading, (view, look))
             } else {
@@ -173,6 +174,7 @@ fn picture(
         style,
         depth,
         ascii_only: false,
+        coarse: false,
     };
     image.draw(&frame, scene, look);
     encode(image.lines(), depth)

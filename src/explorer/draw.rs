@@ -410,7 +410,8 @@ impl Explorer {
             _ => None,
         };
         let hidden = if veiled { ", hidden" } else { "" };
-        let title = format!("view {size}{hidden}");
+        let coarse = if self.coarse { ", coarse" } else { "" };
+        let title = format!("view {size}{hidden}{coarse}");
         pen.border_text(area, area.y, &title, at.map(|at| at.x));
         if let Some(at) = at {
             self.mark_cursor(pen, area, at);

@@ -181,6 +181,8 @@ pub struct Explorer {
     ended: Option<u8>,
     /// The bytes of the last frame, and of the largest one.
     sent: Option<[u64; 2]>,
+    /// Whether the picture is drawn with few shades, since its bytes go out slowly.
+    coarse: bool,
 }
 
 /// What the explorer can't do itself.
@@ -235,6 +237,7 @@ impl Explorer {
             dialing: Dialing::default(),
             ended: None,
             sent: None,
+            coarse: false,
         }
     }
 
@@ -291,6 +294,11 @@ impl Explorer {
         let bytes = bytes as u64;
         let most = self.sent.map_or(0, |[_, most]| most);
         self.sent = Some([bytes, most.max(bytes)]);
+    }
+
+    /// Draws the picture with two shades from now on, or with all there are again.
+    pub const fn set_coarse(&mut self, coarse: bool) {
+        self.coarse = coarse;
     }
 
     /// How the screen is drawn now.

@@ -73,6 +73,7 @@ impl Explorer {
                 style,
                 depth: self.options.colors(),
                 ascii_only: glyphs == Glyphs::Ascii,
+                coarse: self.coarse,
             },
         };
         self.picture.rests = self.picture.key == Some(key);
@@ -116,7 +117,14 @@ impl Explorer {
 
     pub(super) fn read(&mut self, picture: PictureKey) {
         let key = ReadingKey {
-            picture,
+            // How finely the picture is drawn makes no other reading.
+            picture: PictureKey {
+                look: Look {
+                    coarse: false,
+                    ..picture.look
+                },
+                ..picture
+            },
             cursor: self.cursor,
             selected: self.selected,
             chosen: self.chosen,

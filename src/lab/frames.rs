@@ -371,6 +371,7 @@ impl Stand<'_> {
             style: Style::Half,
             depth: ColorDepth::Ansi256,
             ascii_only: false,
+            coarse: false,
         };
         let mut image = Image::new();
         let mut taken = [const { Vec::new() }; 3];

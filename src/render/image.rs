@@ -18,6 +18,8 @@ pub struct Look {
     pub depth: ColorDepth,
     /// Whether to keep to the characters of ASCII, in every style.
     pub ascii_only: bool,
+    /// Whether two shades do: less changes from picture to picture, for links that can't keep up.
+    pub coarse: bool,
 }
 
 /// A character and its colours; where there is none, the terminal's own.
@@ -383,6 +385,7 @@ mod tests {
             style,
             depth,
             ascii_only: false,
+            coarse: false,
         };
         image.draw(&frame, &scene, look);
         (frame, image)

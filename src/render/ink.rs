@@ -86,9 +86,9 @@ pub(super) fn ink(
         return of_class(contact, colored);
     }
     let tone = match frame.view() {
-        View::Shade | View::Class => shade(frame, scene, x, y),
+        View::Shade | View::Class => shade(frame, scene, look, (x, y)),
         View::Outline => outline(frame, scene, x, y),
-        View::Depth => depth_tone(frame, scene, x, y),
+        View::Depth => depth_tone(frame, scene, look, (x, y)),
         View::Normal => normal(frame, scene, x, y),
         View::Delta => delta(frame, x, y),
         View::Lost => lost(frame, x, y),
@@ -116,6 +116,21 @@ fn ramp(level: f32) -> char {
     RAMP[step(level, RAMP.len())].into()
 }
 
+impl Look {
+    /// The brightness that is shown for one from 0 to 1.
+    fn level(self, level: f32) -> f32 {
+        if self.coarse {
+            [DARK, BRIGHT][step(level, 2)]
+        } else {
+            level
+        }
+    }
+}
+
+/// The shades of a coarse picture.
+const DARK: f32 = 0.3;
+const BRIGHT: f32 = 0.8;
+
 /// Both halves of what is bright, one half by turns of what is dark.
 fn checkered(level: f32, x: u32, y: u32) -> usize {
     match (level >= 0.5, (x ^ y) & 1) {
@@ -125,9 +140,9 @@ fn checkered(level: f32, x: u32, y: u32) -> usize {
     }
 }
 
-fn shade(frame: &Frame, scene: &Scene, x: u32, y: u32) -> Option<Tone> {
+fn shade(frame: &Frame, scene: &Scene, look: Look, (x, y): (u32, u32)) -> Option<Tone> {
     let base = color_at(frame, scene, x, y)?;
-    let level = frame.brightness(x, y);
+    let level = look.level(frame.brightness(x, y));
     Some(Tone {
         glyph: ramp(level),
         level,
@@ -153,9 +168,9 @@ fn color_at(frame: &Frame, scene: &Scene, x: u32, y: u32) -> Option<Rgb> {
     Some(scene.bodies.get(seen).map_or(WHITE, |b| color_of(seen, b)))
 }
 
-fn depth_tone(frame: &Frame, scene: &Scene, x: u32, y: u32) -> Option<Tone> {
+fn depth_tone(frame: &Frame, scene: &Scene, look: Look, (x, y): (u32, u32)) -> Option<Tone> {
     let t = frame.hit(scene, x, y)?.t;
-    let level = frame.nearness(t);
+    let level = look.level(frame.nearness(t));
     Some(Tone {
         glyph: ramp(level),
         level,

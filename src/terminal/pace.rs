@@ -5,6 +5,9 @@
 //! now and then, and while too much is
 //! unanswered the next frame waits: the state goes on, and the screen follows with the newest of
 //! it. A terminal that answers nothing is written to without asking.
+//!
+//! Where frames have to wait for long the next ones are coarse, until nothing has been shown for a while:
+//! see [`Detail`].
 
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
@@ -20,6 +23,54 @@ const WINDOW: usize = 4096;
 const FIRST_ANSWER: Duration = Duration::from_secs(1);
 /// One that has answered before is given this long, and is written to then all the same.
 const NEXT_ANSWER: Duration = Duration::from_secs(5);
+
+/// A frame that had to wait for so long is drawn coarsely.
+const LONG: Duration = Duration::from_millis(100);
+/// After so long without a frame the person rests, and the picture gets its detail back.
+const REST: Duration = Duration::from_millis(300);
+
+/// How finely pictures are drawn, going by how they get through.
+///
+/// A coarse picture stays coarse for as long as frames follow each other: to go back and forth between
+/// the two would change more cells than either.
+#[derive(Debug, Default)]
+pub struct Detail {
+    /// Since when a frame waits for room.
+    held: Option<Instant>,
+    /// If frames are coarse: when the last one was drawn.
+    coarse: Option<Instant>,
+}
+
+impl Detail {
+    /// A frame is due, and there is no room for it yet.
+    pub fn holds(&mut self, now: Instant) {
+        self.held.get_or_insert(now);
+    }
+
+    /// A frame is drawn now; whether it is to be coarse.
+    pub fn draws(&mut self, now: Instant) -> bool {
+        let held = self.held.take();
+        let waited = held.is_some_and(|since| now.saturating_duration_since(since) >= LONG);
+        if waited || self.coarse.is_some() {
+            self.coarse = Some(now);
+        }
+        self.coarse.is_some()
+    }
+
+    /// When the picture is to be drawn in full, if it is not and nothing else happens before.
+    pub fn due(&self) -> Option<Instant> {
+        self.coarse.map(|last| last + REST)
+    }
+
+    /// Whether it is time for that; the next frame is not coarse then, unless it has to wait again.
+    pub fn rests(&mut self, now: Instant) -> bool {
+        let rests = self.held.is_none() && self.due().is_some_and(|due| due <= now);
+        if rests {
+            self.coarse = None;
+        }
+        rests
+    }
+}
 
 /// How the terminal keeps up.
 #[derive(Debug, Default)]
@@ -100,6 +151,36 @@ mod tests {
 
     fn after(start: Instant, ms: u64) -> Instant {
         start + Duration::from_millis(ms)
+    }
+
+    #[test]
+    fn frames_that_wait_are_coarse_until_nothing_is_shown_for_a_while() {
+        let start = Instant::now();
+        let mut detail = Detail::default();
+        assert!(!detail.draws(start));
+        detail.holds(start);
+        assert!(!detail.draws(after(start, 99)), "it waited shortly");
+        detail.holds(after(start, 200));
+        detail.holds(after(start, 290));
+        assert!(detail.draws(after(start, 300)), "it waited since 200");
+        assert!(detail.draws(after(start, 500)), "the person moves on");
+        assert_eq!(detail.due(), Some(after(start, 800)));
+        assert!(!detail.rests(after(start, 799)));
+        assert!(detail.rests(after(start, 800)));
+        assert_eq!(detail.due(), None);
+        assert!(!detail.draws(after(start, 800)));
+    }
+
+    #[test]
+    fn a_frame_that_waits_is_no_rest() {
+        let start = Instant::now();
+        let mut detail = Detail::default();
+        detail.holds(start);
+        assert!(detail.draws(after(start, 100)));
+        detail.holds(after(start, 150));
+        assert!(!detail.rests(after(start, 1000)));
+        assert!(detail.draws(after(start, 1000)));
+        assert!(detail.rests(after(start, 1300)));
     }
 
     #[test]

@@ -15,7 +15,7 @@ use rustix::process::{Signal, kill_current_process_group};
 use super::clipboard;
 use super::device::Device;
 use super::keyboard::{Heard, Keyboard};
-use super::pace::{Pace, QUERY};
+use super::pace::{Detail, Pace, QUERY};
 use super::painter::{Limits, Painter};
 use super::signals::{self, Asked, Signals};
 use super::wake::Alarm;
@@ -57,6 +57,7 @@ pub struct Session {
     painter: Painter,
     canvas: Buffer,
     pace: Pace,
+    detail: Detail,
     /// The frame on its way, and how much of it has been written.
     frame: Vec<u8>,
     written: usize,
@@ -88,6 +89,7 @@ impl Session {
             painter: Painter::default(),
             canvas: Buffer::default(),
             pace: Pace::default(),
+            detail: Detail::default(),
             frame: Vec::new(),
             written: 0,
             mouse: false,
@@ -108,6 +110,7 @@ impl Session {
         self.mouse = false;
         self.painter.forget();
         self.pace.forget();
+        self.detail = Detail::default();
         self.flush()
     }
 
@@ -152,6 +155,11 @@ impl Session {
         self.frame.clear();
         self.written = 0;
         Ok(())
+    }
+
+    /// Whether a frame would go out at once.
+    fn has_room(&mut self, now: Instant) -> bool {
+        self.standing == Standing::Ours && self.frame.is_empty() && self.pace.due(now).is_none()
     }
 
     fn hang_up(&mut self) {
@@ -241,6 +249,7 @@ impl Session {
         let (cols, rows) = self.device.size();
         self.canvas.resize(Rect::new(0, 0, cols, rows));
         self.canvas.reset();
+        explorer.set_coarse(self.detail.draws(Instant::now()));
         explorer.prepare(cols, rows);
         let cursor = explorer.draw(&mut self.canvas);
         let limits = Limits::of(&explorer.options());
@@ -265,7 +274,14 @@ impl Link for Session {
             return Ok(());
         }
         let now = Instant::now();
-        let due = if due { self.pace.due(now) } else { None };
+        // What is due, or else the detail that a person who rests gets back.
+        let room = self.pace.due(now);
+        let detail = self.detail.due().filter(|_| self.frame.is_empty());
+        let due = if due {
+            room
+        } else {
+            detail.map(|at| room.map_or(at, |room| room.max(at)))
+        };
         let until = [due, self.settles].into_iter().flatten().min();
         self.look(until.map(|at| at.saturating_duration_since(now)))
     }
@@ -274,13 +290,21 @@ impl Link for Session {
         if self.inputs.is_empty() {
             self.look(Some(Duration::ZERO))?;
         }
+        let now = Instant::now();
+        let is_idle = self.inputs.is_empty() && self.has_room(now);
+        if is_idle && self.detail.rests(now) {
+            return Ok(Some(Input::Redraw));
+        }
         Ok(self.inputs.pop_front())
     }
 
     fn is_ready(&mut self) -> bool {
-        self.standing == Standing::Ours
-            && self.frame.is_empty()
-            && self.pace.due(Instant::now()).is_none()
+        let now = Instant::now();
+        let is_ready = self.has_room(now);
+        if !is_ready {
+            self.detail.holds(now);
+        }
+        is_ready
     }
 
     fn show(&mut self, explorer: &mut Explorer) -> io::Result<()> {

@@ -328,6 +328,55 @@ fn a_reader_that_stalls_sees_the_last_state_soon_and_after_little() {
     pty.is_restored();
 }
 
+/// The query after a frame that is not small, and what ends every frame.
+const QUERY: &[u8] = b"\x1b[5n";
+const END: &[u8] = b"\x1b[?2026l";
+
+/// Presses a key and waits for the end of its frame, of so many bytes.
+fn turns(pty: &mut Pty, end: &[u8]) -> usize {
+    let (before, length) = (pty.occurrences(end), pty.bytes().len());
+    pty.sends("d");
+    pty.waits_for("a frame", |p| p.occurrences(end) > before);
+    pty.bytes().len() - length
+}
+
+#[test]
+fn on_a_slow_link_the_picture_is_coarse_until_the_person_rests() {
+    // With all colours one frame is as much as may be on its way; the next has to wait.
+    let start = || {
+        let start = Start::default().args(&["trio"]);
+        start.env("COLORTERM", "truecolor")
+    };
+    let mut pty = Pty::explorer(start());
+    let fine = turns(&mut pty, QUERY);
+    assert!(fine > 4096 && !pty.shows("coarse"), "{fine}");
+    pty.answers_nothing();
+    turns(&mut pty, QUERY);
+    pty.sends("d");
+    // That it waits for long is what is tested.
+    std::thread::sleep(std::time::Duration::from_millis(200));
+    pty.answers_again();
+    pty.waits_to_show("coarse");
+    // While keys come it stays so, and takes far less.
+    let coarse = turns(&mut pty, END);
+    assert!(pty.shows("coarse"));
+    assert!(3 * coarse < fine, "{coarse} bytes, and {fine} in full");
+    pty.waits_for("the detail", |p| !p.shows("coarse"));
+
+    let mut fast = Pty::explorer(start());
+    for _ in 0..4 {
+        turns(&mut fast, QUERY);
+        assert!(!fast.shows("coarse"));
+    }
+    let full = seen::cells(fast.screen());
+    pty.waits_for("the picture in full", |p| seen::cells(p.screen()) == full);
+    for mut pty in [pty, fast] {
+        pty.sends(":quit!\r");
+        assert_eq!(pty.ends(), 0);
+        pty.is_restored();
+    }
+}
+
 #[test]
 fn a_paste_is_no_burst_of_commands() {
     let mut pty = Pty::explorer(Start::default());

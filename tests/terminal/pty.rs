@@ -97,6 +97,7 @@ impl Start {
             before,
             bytes: Vec::new(),
             answered: 0,
+            owed: 0,
             answers: true,
             home,
         }
@@ -176,7 +177,9 @@ pub struct Pty {
     before: String,
     /// Everything that the program has written.
     bytes: Vec<u8>,
+    /// Up to where they have been looked at for queries, and the queries that got no answer.
     answered: usize,
+    owed: usize,
     answers: bool,
     home: Arc<TempDir>,
 }
@@ -225,6 +228,13 @@ impl Pty {
         self.answers = false;
     }
 
+    /// Gives the answers that are owed, and all others from now on.
+    pub fn answers_again(&mut self) {
+        self.answers = true;
+        let owed = std::mem::take(&mut self.owed);
+        self.sends(&"\x1b[0n".repeat(owed));
+    }
+
     pub fn sends(&mut self, keys: &str) {
         let sent = self.writer.write_all(keys.as_bytes());
         sent.and_then(|()| self.writer.flush())
@@ -268,6 +278,8 @@ impl Pty {
             if self.answers {
                 // Where the program has ended meanwhile there is nobody to answer.
                 let _ = self.writer.write_all(b"\x1b[0n");
+            } else {
+                self.owed += 1;
             }
             self.answer();
         }

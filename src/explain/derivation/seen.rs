@@ -407,6 +407,7 @@ mod tests {
                 style: Style::Half,
                 depth: ColorDepth::None,
                 ascii_only: false,
+                coarse: false,
             };
             image.draw(&frame, &scene, look);
             let reading = Reading::take(
@@ -443,6 +444,7 @@ mod tests {
                         style,
                         depth: ColorDepth::None,
                         ascii_only: false,
+                        coarse: false,
                     };
                     image.draw(&frame, &scene, look);
                     for (x, y) in [(0, 0), (size.width / 2, size.height / 2)] {
