@@ -58,6 +58,11 @@ fn write(path: &Path, text: &str) -> std::io::Result<()> {
             "it is no file that could be replaced",
         ));
     }
+    // The name of the file that takes its place says nothing to the person.
+    replace(&target, text).map_err(|e| e.kind().into())
+}
+
+fn replace(target: &Path, text: &str) -> std::io::Result<()> {
     let folder = target.parent().filter(|p| !p.as_os_str().is_empty());
     let mut builder = tempfile::Builder::new();
     builder.prefix(".rayscope-");
@@ -67,16 +72,13 @@ fn write(path: &Path, text: &str) -> std::io::Result<()> {
         use std::os::unix::fs::PermissionsExt;
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
-    // The name of a file that could not be made says nothing to the person.
-    let mut file = builder
-        .tempfile_in(folder.unwrap_or(Path::new(".")))
-        .map_err(|e| std::io::Error::from(e.kind()))?;
+    let mut file = builder.tempfile_in(folder.unwrap_or(Path::new(".")))?;
     file.write_all(text.as_bytes())?;
-    if let Ok(old) = fs::metadata(&target) {
+    if let Ok(old) = fs::metadata(target) {
         file.as_file().set_permissions(old.permissions())?;
     }
     file.as_file().sync_all()?;
-    file.persist(&target)?;
+    file.persist(target)?;
     Ok(())
 }
 
