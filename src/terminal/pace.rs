@@ -24,10 +24,13 @@ const FIRST_ANSWER: Duration = Duration::from_secs(1);
 /// One that has answered before is given this long, and is written to then all the same.
 const NEXT_ANSWER: Duration = Duration::from_secs(5);
 
-/// A frame that had to wait for so long is drawn coarsely.
+/// A frame that had to wait for so long waited for a slow link, or for one that stalls.
 const LONG: Duration = Duration::from_millis(100);
-/// After so long without a frame the person rests, and the picture gets its detail back.
-const REST: Duration = Duration::from_millis(300);
+/// After so many of them in turn frames are coarse: a link that stalled has no second one.
+const ENOUGH: u8 = 2;
+/// After so long without a frame the person rests, and the picture gets its detail back: longer than
+/// from one key to the next while it is held down.
+const REST: Duration = Duration::from_millis(100);
 
 /// How finely pictures are drawn, going by how they get through.
 ///
@@ -37,6 +40,8 @@ const REST: Duration = Duration::from_millis(300);
 pub struct Detail {
     /// Since when a frame waits for room.
     held: Option<Instant>,
+    /// How many frames in turn waited for long.
+    late: u8,
     /// If frames are coarse: when the last one was drawn.
     coarse: Option<Instant>,
 }
@@ -51,7 +56,12 @@ impl Detail {
     pub fn draws(&mut self, now: Instant) -> bool {
         let held = self.held.take();
         let waited = held.is_some_and(|since| now.saturating_duration_since(since) >= LONG);
-        if waited || self.coarse.is_some() {
+        self.late = if waited {
+            self.late.saturating_add(1)
+        } else {
+            0
+        };
+        if self.late >= ENOUGH || self.coarse.is_some() {
             self.coarse = Some(now);
         }
         self.coarse.is_some()
@@ -153,34 +163,49 @@ mod tests {
         start + Duration::from_millis(ms)
     }
 
+    /// Whether a frame that waits from one millisecond to another is coarse.
+    fn waits(detail: &mut Detail, start: Instant, [from, to]: [u64; 2]) -> bool {
+        detail.holds(after(start, from));
+        detail.holds(after(start, (from + to) / 2));
+        detail.draws(after(start, to))
+    }
+
     #[test]
     fn frames_that_wait_are_coarse_until_nothing_is_shown_for_a_while() {
         let start = Instant::now();
         let mut detail = Detail::default();
         assert!(!detail.draws(start));
-        detail.holds(start);
-        assert!(!detail.draws(after(start, 99)), "it waited shortly");
-        detail.holds(after(start, 200));
-        detail.holds(after(start, 290));
-        assert!(detail.draws(after(start, 300)), "it waited since 200");
+        assert!(!waits(&mut detail, start, [0, 99]), "it waited shortly");
+        assert!(!waits(&mut detail, start, [200, 300]), "it was the first");
+        assert!(waits(&mut detail, start, [350, 450]));
         assert!(detail.draws(after(start, 500)), "the person moves on");
-        assert_eq!(detail.due(), Some(after(start, 800)));
-        assert!(!detail.rests(after(start, 799)));
-        assert!(detail.rests(after(start, 800)));
+        assert_eq!(detail.due(), Some(after(start, 600)));
+        assert!(!detail.rests(after(start, 599)));
+        assert!(detail.rests(after(start, 600)));
         assert_eq!(detail.due(), None);
-        assert!(!detail.draws(after(start, 800)));
+        assert!(!detail.draws(after(start, 600)));
+    }
+
+    #[test]
+    fn a_link_that_stalled_shows_the_last_state_in_full() {
+        let start = Instant::now();
+        let mut detail = Detail::default();
+        assert!(!waits(&mut detail, start, [0, 3000]));
+        assert!(!detail.draws(after(start, 3100)));
+        assert!(!waits(&mut detail, start, [4000, 7000]));
     }
 
     #[test]
     fn a_frame_that_waits_is_no_rest() {
         let start = Instant::now();
         let mut detail = Detail::default();
-        detail.holds(start);
-        assert!(detail.draws(after(start, 100)));
-        detail.holds(after(start, 150));
+        for at in [0, 200] {
+            waits(&mut detail, start, [at, at + 150]);
+        }
+        detail.holds(after(start, 400));
         assert!(!detail.rests(after(start, 1000)));
         assert!(detail.draws(after(start, 1000)));
-        assert!(detail.rests(after(start, 1300)));
+        assert!(detail.rests(after(start, 1100)));
     }
 
     #[test]

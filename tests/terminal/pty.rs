@@ -228,9 +228,14 @@ impl Pty {
         self.answers = false;
     }
 
-    /// Gives the answers that are owed, and all others from now on.
+    /// Gives all answers from now on, and those that are owed.
     pub fn answers_again(&mut self) {
         self.answers = true;
+        self.answers_late();
+    }
+
+    /// Gives the answers that are owed.
+    pub fn answers_late(&mut self) {
         let owed = std::mem::take(&mut self.owed);
         self.sends(&"\x1b[0n".repeat(owed));
     }
