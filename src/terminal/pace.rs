@@ -166,7 +166,7 @@ mod tests {
     /// Whether a frame that waits from one millisecond to another is coarse.
     fn waits(detail: &mut Detail, start: Instant, [from, to]: [u64; 2]) -> bool {
         detail.holds(after(start, from));
-        detail.holds(after(start, (from + to) / 2));
+        detail.holds(after(start, to - 1));
         detail.draws(after(start, to))
     }
 
