@@ -2,15 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use super::action::{Action, Group};
-use super::command::Command;
-use super::document::{Change, Document};
-use super::mode::{Form, Mode, Purpose, Question};
-use super::motion;
-use super::panel::Panel;
-use super::theme::Palette;
-use super::{Explorer, Request};
 use crate::explain::{Digits, number};
+use crate::explorer::action::{Action, Group};
+use crate::explorer::command::Command;
+use crate::explorer::draw::theme::Palette;
+use crate::explorer::edit::document::{Change, Document};
+use crate::explorer::edit::motion;
+use crate::explorer::mode::{Form, Mode, Purpose, Question};
+use crate::explorer::panel::Panel;
+use crate::explorer::{Explorer, Request};
 use crate::lab::CaseForm;
 use crate::method::{Method, Precision};
 use crate::render::{ColorDepth, Style, View};
@@ -24,7 +24,7 @@ impl Explorer {
         clippy::too_many_lines,
         reason = "one arm for each action, so that the compiler finds a missing one"
     )]
-    pub(super) fn act(&mut self, action: Action) {
+    pub(crate) fn act(&mut self, action: Action) {
         if acts_on_picture(action) {
             self.refresh();
         }
@@ -161,7 +161,7 @@ impl Explorer {
         }
     }
 
-    pub(super) fn command(&mut self, command: Command) {
+    pub(crate) fn command(&mut self, command: Command) {
         self.refresh();
         match command {
             Command::Do(action) => self.act(action),
@@ -224,7 +224,7 @@ impl Explorer {
 
     // The cursor.
 
-    pub(super) fn move_cursor(&mut self, right: i64, down: i64) {
+    pub(crate) fn move_cursor(&mut self, right: i64, down: i64) {
         let size = self.size();
         let step = |at: u32, by: i64, count: u32| {
             (i64::from(at) + by).clamp(0, i64::from(count.max(1)) - 1) as u32
@@ -235,14 +235,14 @@ impl Explorer {
         );
     }
 
-    pub(super) fn put_cursor(&mut self, x: u32, y: u32) {
+    pub(crate) fn put_cursor(&mut self, x: u32, y: u32) {
         if (x, y) != self.cursor {
             self.chosen = None;
         }
         self.cursor = (x, y);
     }
 
-    pub(super) fn go_to_probe(&mut self, forward: bool) {
+    pub(crate) fn go_to_probe(&mut self, forward: bool) {
         let count = self.scene().probes.len();
         if count == 0 {
             return self.say("This scene names no places worth looking at.");
@@ -280,7 +280,7 @@ impl Explorer {
 
     // The camera and the view.
 
-    pub(super) fn move_camera(&mut self, by: impl FnOnce(&Camera, f64) -> Camera) {
+    pub(crate) fn move_camera(&mut self, by: impl FnOnce(&Camera, f64) -> Camera) {
         let steps = f64::from(self.step / self.usual_step).clamp(1.0 / 1024.0, 4.0);
         let camera = by(&self.scene().camera, steps);
         if !self.document.apply(Change::Camera(camera)) {
@@ -288,7 +288,7 @@ impl Explorer {
         }
     }
 
-    pub(super) fn look_at_sphere(&mut self) {
+    pub(crate) fn look_at_sphere(&mut self) {
         match self.selected.and_then(|s| self.scene().bodies.get(s)) {
             Some(body) => {
                 let center = body.sphere.center;
@@ -301,19 +301,19 @@ impl Explorer {
         }
     }
 
-    pub(super) fn turn_method(&mut self, by: usize) {
+    pub(crate) fn turn_method(&mut self, by: usize) {
         self.options.method = turn(&Method::ALL, self.options.method, by);
     }
 
-    pub(super) fn turn_view(&mut self, by: usize) {
+    pub(crate) fn turn_view(&mut self, by: usize) {
         self.set_view(turn(&View::ALL, self.options.view, by));
     }
 
-    pub(super) fn turn_style(&mut self, by: usize) {
+    pub(crate) fn turn_style(&mut self, by: usize) {
         self.set_style(turn(&Style::ALL, self.options.style, by));
     }
 
-    pub(super) fn set_style(&mut self, style: Style) {
+    pub(crate) fn set_style(&mut self, style: Style) {
         self.options.style = style;
         self.say_legend();
     }
@@ -345,7 +345,7 @@ impl Explorer {
         self.say(format!("{shown}, {}: {}", style.name(), view.legend(style)));
     }
 
-    pub(super) fn set_aspect(&mut self, aspect: f64) {
+    pub(crate) fn set_aspect(&mut self, aspect: f64) {
         self.options.aspect = aspect.clamp(0.5, 4.0);
         self.say(format!(
             "Cells are taken to be {:.2} times as high as wide.",
@@ -353,7 +353,7 @@ impl Explorer {
         ));
     }
 
-    pub(super) fn set_step(&mut self, step: f32) {
+    pub(crate) fn set_step(&mut self, step: f32) {
         if step.is_finite() && step > 0.0 {
             self.step = step;
         }
@@ -363,7 +363,7 @@ impl Explorer {
         self.say(format!("One step is {step} ({ratio}× the usual)."));
     }
 
-    pub(super) fn travel(&mut self, go: fn(&mut Document) -> bool, nothing: &str) {
+    pub(crate) fn travel(&mut self, go: fn(&mut Document) -> bool, nothing: &str) {
         if go(&mut self.document) {
             self.follow_dial();
             self.mend_selection();
@@ -382,7 +382,7 @@ fn acts_on_picture(action: Action) -> bool {
 }
 
 /// The value `by` places after `now` in the ring of all.
-pub(super) fn turn<T: Copy + PartialEq>(all: &[T], now: T, by: usize) -> T {
+pub(crate) fn turn<T: Copy + PartialEq>(all: &[T], now: T, by: usize) -> T {
     let at = all.iter().position(|&v| v == now).unwrap_or(0);
     all[(at + by) % all.len()]
 }

@@ -3,7 +3,7 @@
 //! The table feeds the dispatch of keys, the footer, the help page, the names of the command line
 //! and the keys section of the guide.
 
-use super::key::Key;
+use crate::explorer::key::Key;
 
 /// The heading under which the help page lists an action.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,12 +3,12 @@
 
 use glam::Vec3;
 
-use super::Explorer;
+use crate::explorer::Explorer;
 use crate::scene::Size;
 
 /// A pixel, by what names it before there is a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Target {
+pub(crate) enum Target {
     /// The one in the middle.
     Center,
     /// The one in this column and row.
@@ -21,14 +21,14 @@ pub(super) enum Target {
 
 /// What is still to be done once the picture is known.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub(super) struct Arrival {
-    pub(super) target: Option<Target>,
+pub(crate) struct Arrival {
+    pub(crate) target: Option<Target>,
     /// A step's name or number.
-    pub(super) step: Option<String>,
+    pub(crate) step: Option<String>,
 }
 
 /// The pixel of a picture of size `new` at the place of `pixel` in a picture of size `old`.
-pub(super) fn scaled((x, y): (u32, u32), old: Size, new: Size) -> (u32, u32) {
+pub(crate) fn scaled((x, y): (u32, u32), old: Size, new: Size) -> (u32, u32) {
     let along = |at: u32, old: u32, new: u32| {
         let middle = (f64::from(at) + 0.5) * f64::from(new) / f64::from(old.max(1));
         (middle as u32).min(new.max(1) - 1)
@@ -41,7 +41,7 @@ pub(super) fn scaled((x, y): (u32, u32), old: Size, new: Size) -> (u32, u32) {
 
 impl Explorer {
     /// Puts the cursor where it was wanted.
-    pub(super) fn arrive(&mut self) {
+    pub(crate) fn arrive(&mut self) {
         let Some(target) = self.arrival.target.take() else {
             return;
         };
@@ -64,13 +64,13 @@ impl Explorer {
     }
 
     /// The pixel that shows the point `p`, if the picture shows it.
-    pub(super) fn pixel_of(&self, p: Vec3) -> Option<(u32, u32)> {
+    pub(crate) fn pixel_of(&self, p: Vec3) -> Option<(u32, u32)> {
         let [x, y] = self.picture.rays.project(p.as_dvec3())?.map(f64::round);
         (x >= 0.0 && y >= 0.0).then_some((x as u32, y as u32))
     }
 
     /// Goes to the step that was wanted; the panel stays as it is.
-    pub(super) fn arrive_at_step(&mut self) {
+    pub(crate) fn arrive_at_step(&mut self) {
         let Some(name) = self.arrival.step.take() else {
             return;
         };

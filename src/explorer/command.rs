@@ -5,11 +5,11 @@ use crate::method::Method;
 use crate::render::{ColorDepth, Style, View};
 use crate::scene::Builtin;
 
-use super::action::Action;
-use super::field::{Field, parse_number};
-use super::panel::Panel;
-use super::theme::Palette;
-use super::tour;
+use crate::explorer::action::Action;
+use crate::explorer::draw::theme::Palette;
+use crate::explorer::edit::field::{Field, parse_number};
+use crate::explorer::panel::Panel;
+use crate::explorer::tour::chapter as tour;
 
 /// A line that was understood.
 #[derive(Debug, Clone, PartialEq)]
@@ -185,7 +185,7 @@ fn argument(rest: &str, name: &str, expected: &str) -> Result<String, String> {
     }
 }
 
-pub(super) fn choice<T: Copy>(
+pub(crate) fn choice<T: Copy>(
     rest: &str,
     what: &str,
     all: impl IntoIterator<Item = T>,
@@ -315,10 +315,10 @@ pub fn complete(line: &str) -> Vec<String> {
         "tour" => tour::builtin().iter().map(|c| c.name.clone()).collect(),
         "open" => {
             let mut words: Vec<_> = Builtin::ALL.iter().map(|b| b.name().to_owned()).collect();
-            words.extend(super::files::starting_with(typed));
+            words.extend(crate::explorer::files::disk::starting_with(typed));
             words
         }
-        "save-as" | "append" => super::files::starting_with(typed),
+        "save-as" | "append" => crate::explorer::files::disk::starting_with(typed),
         _ => Vec::new(),
     };
     starting(words, &head, typed)

@@ -1,14 +1,14 @@
 //! A view to pass on: the command that reopens it, and opening there.
 
-use super::arrival::Target;
-use super::command::Command;
-use super::document::Document;
-use super::field::{self, Field};
-use super::panel::Panel;
-use super::plain;
-use super::saving::FilePlace;
-use super::{Explorer, Options, Request};
 use crate::explain::Why;
+use crate::explorer::arrival::Target;
+use crate::explorer::command::Command;
+use crate::explorer::edit::document::Document;
+use crate::explorer::edit::field::{self, Field};
+use crate::explorer::files::saving::FilePlace;
+use crate::explorer::panel::Panel;
+use crate::explorer::plain;
+use crate::explorer::{Explorer, Options, Request};
 use crate::geometry::Decimal;
 use crate::method::Method;
 use crate::render::{Style, View};
@@ -97,7 +97,7 @@ impl Explorer {
     }
 
     /// Shows the command that reopens this view, and asks for it to be copied.
-    pub(super) fn pass_on(&mut self) {
+    pub(crate) fn pass_on(&mut self) {
         match self.link() {
             Ok(words) => {
                 let line = command_line(&words);
@@ -238,7 +238,7 @@ fn target(opening: &Opening, own: Option<Size>) -> Result<Option<Target>, String
 }
 
 /// A file's name that is taken for nothing else.
-pub(super) fn as_file(name: &str) -> String {
+pub(crate) fn as_file(name: &str) -> String {
     if name.contains('/') {
         name.to_owned()
     } else {

@@ -7,126 +7,45 @@
 mod act;
 pub mod action;
 mod arrival;
-mod casing;
 mod command;
-mod dialing;
-mod document;
 mod draw;
-mod field;
+mod edit;
 mod files;
 mod key;
-mod large;
-mod layout;
 mod link;
-mod measuring;
 mod mode;
-mod motion;
-mod mouse;
+mod options;
 mod panel;
-mod panels;
-mod picture;
 mod plain;
-mod prompt;
-mod rescue;
-mod saving;
-mod spheres;
-mod stepping;
-mod theme;
 pub mod tour;
-mod touring;
 
 use ratatui::crossterm::event::{Event, KeyEventKind};
 
-use crate::explain::{Digits, Glyphs, Reading};
+use crate::explain::{Digits, Reading};
 use crate::method::Method;
-use crate::render::{ColorDepth, Style, View};
+
 use crate::scene::{Scene, Size, Source};
 
+pub use draw::theme::Palette;
+pub use edit::motion::usual_step;
 pub use link::{Opening, command_line};
-pub use measuring::Waker;
+pub use options::{Options, Reasons, Request};
 pub use panel::Panel;
+pub use panel::error::Waker;
 pub use plain::Reply;
-pub use theme::Palette;
 
 use arrival::Arrival;
-use dialing::Dialing;
-use document::Document;
+use draw::picture::Picture;
+use edit::document::Document;
+use files::rescue::Rescue;
+use files::saving::FilePlace;
 use key::Key;
-use measuring::Measuring;
+use mode::line::Line;
 use mode::{Message, Mode, Prompt, Purpose};
-use picture::Picture;
-use prompt::Line;
-use rescue::Rescue;
-use saving::FilePlace;
-use stepping::Prediction;
-use touring::{Bookmark, Tour};
-
-/// How the explorer starts.
-#[derive(Debug, Clone, Copy)]
-pub struct Options {
-    /// The method that is asked first.
-    pub method: Method,
-    /// The style of the picture.
-    pub style: Style,
-    /// What the picture shows.
-    pub view: View,
-    /// Height of a cell over its width.
-    pub aspect: f64,
-    /// The colours that the terminal has.
-    pub depth: ColorDepth,
-    /// Which of them serve what.
-    pub palette: Palette,
-    /// The characters that the terminal has.
-    pub glyphs: Glyphs,
-    /// Why these.
-    pub reasons: Reasons,
-}
-
-/// Why the screen is drawn as it is, in a few words each, for the help page.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Reasons {
-    /// Why so many colours.
-    pub depth: &'static str,
-    /// Why this theme.
-    pub palette: &'static str,
-    /// Why these characters.
-    pub glyphs: &'static str,
-}
-
-impl Default for Reasons {
-    fn default() -> Self {
-        Self {
-            depth: "the usual",
-            palette: "the usual",
-            glyphs: "the usual",
-        }
-    }
-}
-
-impl Options {
-    /// The colours that are used: none in a theme without.
-    pub const fn colors(&self) -> ColorDepth {
-        match self.palette {
-            Palette::Monochrome => ColorDepth::None,
-            Palette::Dark | Palette::Light | Palette::HighContrast => self.depth,
-        }
-    }
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Self {
-            method: Method::default(),
-            style: Style::Half,
-            view: View::Shade,
-            aspect: 2.0,
-            depth: ColorDepth::Ansi256,
-            palette: Palette::default(),
-            glyphs: Glyphs::Unicode,
-            reasons: Reasons::default(),
-        }
-    }
-}
+use panel::dial::Dialing;
+use panel::error::Measuring;
+use panel::steps::Prediction;
+use tour::{Bookmark, Tour};
 
 /// The whole state of one person's explorer.
 #[derive(Debug)]
@@ -183,17 +102,6 @@ pub struct Explorer {
     sent: Option<[u64; 2]>,
     /// Whether the picture is drawn with few shades, since its bytes go out slowly.
     coarse: bool,
-}
-
-/// What the explorer can't do itself.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Request {
-    /// Stop this process and give the terminal to the shell.
-    Suspend,
-    /// Put this text where the person can paste it from.
-    Copy(String),
-    /// Draw all of the screen anew, whatever the terminal shows.
-    Redraw,
 }
 
 impl Explorer {
@@ -355,11 +263,4 @@ impl Explorer {
             Digits::Significant(6)
         }
     }
-}
-
-/// A step that suits what the camera sees: a power of two, so that sums of steps stay exact.
-pub fn usual_step(scene: &Scene) -> f32 {
-    let step = motion::window(&scene.camera) / 32.0;
-    let exponent = (step.log2().round()).clamp(-126.0, 120.0) as i32;
-    2.0_f32.powi(exponent)
 }

@@ -5,14 +5,14 @@
 
 use ratatui::layout::Rect;
 
-use super::action::{Action, Group};
-use super::command::{self, Command, WITH_ARGUMENT};
-use super::field::Field;
-use super::key::Key;
-use super::mode::{Mode, Purpose, Question};
-use super::panel::Panel;
-use super::{Explorer, Request};
 use crate::explain::{self, Digits, Line, Reading, StepLook, Subject};
+use crate::explorer::action::{Action, Group};
+use crate::explorer::command::{self, Command, WITH_ARGUMENT};
+use crate::explorer::edit::field::Field;
+use crate::explorer::key::Key;
+use crate::explorer::mode::{Mode, Purpose, Question};
+use crate::explorer::panel::Panel;
+use crate::explorer::{Explorer, Request};
 use crate::geometry::Decimal;
 use crate::method::{Class, Precision};
 
@@ -28,7 +28,7 @@ pub struct Reply {
 }
 
 /// The screen that the picture is made for, in columns and rows.
-pub(super) const SCREEN: (u16, u16) = (80, 24);
+pub(crate) const SCREEN: (u16, u16) = (80, 24);
 /// Columns and rows of a panel as text: panels are longer than a screen, figures are not.
 const ROOM: (u16, u16) = (76, 200);
 const FIGURE: (u16, u16) = (76, 20);

@@ -6,9 +6,9 @@
 
 use std::collections::BTreeMap;
 
-use super::Explorer;
-use super::panel::Panel;
 use crate::explain::{self, Line, Role, Setting};
+use crate::explorer::Explorer;
+use crate::explorer::panel::Panel;
 use crate::lab::picture::{PictureErrors, PixelError, pixel_errors};
 use crate::lab::{Dial, Turn};
 use crate::method::Method;
@@ -17,8 +17,8 @@ use crate::scene::{PixelShape, Rays, Size};
 
 /// The dial that was chosen, and what it has shown so far.
 #[derive(Debug)]
-pub(super) struct Dialing {
-    pub(super) dial: &'static Dial,
+pub(crate) struct Dialing {
+    pub(crate) dial: &'static Dial,
     /// What the picture on the screen gets wrong, row by row; empty where nobody asked.
     errors: Vec<PixelError>,
     errors_of: Option<(u64, Rays, Method)>,
@@ -55,7 +55,7 @@ const MOST_ASKED: usize = 2_000_000;
 
 impl Dialing {
     /// Whether a cell shows a pixel that is wrong.
-    pub(super) fn wrong_cells(&self, style: Style, size: Size) -> Vec<(u32, u32)> {
+    pub(crate) fn wrong_cells(&self, style: Style, size: Size) -> Vec<(u32, u32)> {
         let width = size.width.max(1) as usize;
         let wrong = self.errors.iter().enumerate().filter(|(_, e)| e.is_wrong());
         let mut cells: Vec<_> = wrong
@@ -76,7 +76,7 @@ impl Dialing {
 
 impl Explorer {
     /// Shows the dial; when it is shown already, chooses the next one.
-    pub(super) fn next_dial(&mut self) {
+    pub(crate) fn next_dial(&mut self) {
         if self.panel != Panel::Dial {
             self.panel = Panel::Dial;
             return;
@@ -96,7 +96,7 @@ impl Explorer {
     }
 
     /// Turns the dial one setting on, towards where it breaks.
-    pub(super) fn turn_on(&mut self) {
+    pub(crate) fn turn_on(&mut self) {
         let dial = self.dialing.dial;
         let now = self.setting();
         match dial.turns().find(|&k| k > now) {
@@ -106,7 +106,7 @@ impl Explorer {
     }
 
     /// Turns the dial one setting back, towards the scene as it was.
-    pub(super) fn turn_back(&mut self) {
+    pub(crate) fn turn_back(&mut self) {
         let dial = self.dialing.dial;
         match self.setting() {
             0 => self.say("No dial is turned: the scene is as it was."),
@@ -141,7 +141,7 @@ impl Explorer {
     }
 
     /// Turns the dial of that name to 2^k, or shows it where it stands.
-    pub(super) fn dial_to(&mut self, dial: &'static Dial, k: Option<u32>) {
+    pub(crate) fn dial_to(&mut self, dial: &'static Dial, k: Option<u32>) {
         self.choose_dial(dial);
         if self.screen.0 > 0 {
             self.panel = Panel::Dial;
@@ -152,19 +152,19 @@ impl Explorer {
     }
 
     /// After undoing and redoing: the dial that is turned is the one that is chosen.
-    pub(super) fn follow_dial(&mut self) {
+    pub(crate) fn follow_dial(&mut self) {
         if let Some(turn) = self.document.turn() {
             self.dialing.dial = turn.dial;
         }
     }
 
     /// Whether wrong pixels are marked: while a dial is turned or shown.
-    pub(super) fn marks_wrong(&self) -> bool {
+    pub(crate) fn marks_wrong(&self) -> bool {
         self.document.turn().is_some() || self.panel == Panel::Dial
     }
 
     /// Finds out what the picture on the screen gets wrong, if anybody wants to know.
-    pub(super) fn find_errors(&mut self) {
+    pub(crate) fn find_errors(&mut self) {
         let (rays, method) = (self.picture.rays, self.options.method);
         let key = (self.document.version(), rays, method);
         if !self.marks_wrong() {
@@ -252,7 +252,7 @@ impl Explorer {
     }
 
     /// The dial, where it stands, what is wrong there, where it broke, and the way there.
-    pub(super) fn dial_lines(&self, cols: usize, rows: usize) -> Vec<Line> {
+    pub(crate) fn dial_lines(&self, cols: usize, rows: usize) -> Vec<Line> {
         let Dialing { dial, found, .. } = &self.dialing;
         let (now, method) = (self.setting(), self.options.method);
         let mut lines = Vec::new();

@@ -2,19 +2,19 @@
 
 use ratatui::layout::Rect;
 
-use super::Explorer;
-use super::draw::Pen;
-use super::large;
-use super::layout::{self, Layout};
-use super::panel::Panel;
-use super::stepping::Prediction;
-use super::theme::Theme;
 use crate::explain::{self, Line, Question, Reading, StepLook, Subject};
+use crate::explorer::Explorer;
+use crate::explorer::draw::large;
+use crate::explorer::draw::layout::{self, Layout};
+use crate::explorer::draw::pen::Pen;
+use crate::explorer::draw::theme::Theme;
+use crate::explorer::panel::Panel;
+use crate::explorer::panel::steps::Prediction;
 use crate::render;
 
 impl Explorer {
     /// Shows a panel. Where it takes the picture's place, the same key brings the picture back.
-    pub(super) fn show_panel(&mut self, panel: Panel) {
+    pub(crate) fn show_panel(&mut self, panel: Panel) {
         let (cols, rows) = self.screen;
         let layout = self.layout(Rect::new(0, 0, cols, rows));
         let covers = layout.is_some_and(|layout| layout.panel.is_empty());
@@ -28,18 +28,18 @@ impl Explorer {
 
     /// Whether the panel that was asked for stands in the place of the picture: on a screen where it
     /// has no other.
-    pub(super) fn is_picture_covered(&self, layout: &Layout) -> bool {
+    pub(crate) fn is_picture_covered(&self, layout: &Layout) -> bool {
         layout.panel.is_empty() && (self.panel != Panel::Quadratic || self.numbers_alone)
     }
 
     /// The panel in the place of the picture.
-    pub(super) fn draw_panel_alone(&self, pen: &mut Pen<'_>, area: Rect) {
+    pub(crate) fn draw_panel_alone(&self, pen: &mut Pen<'_>, area: Rect) {
         self.draw_panel(pen, self.panel, area);
         pen.corner(area, "1: picture");
     }
 
     /// All panels that have room.
-    pub(super) fn draw_panels(&self, pen: &mut Pen<'_>, side: Rect) {
+    pub(crate) fn draw_panels(&self, pen: &mut Pen<'_>, side: Rect) {
         for (panel, area) in Panel::tiles(side, self.panel) {
             self.draw_panel(pen, panel, area);
         }
@@ -81,7 +81,7 @@ impl Explorer {
     }
 
     /// The title of a panel and its lines, laid out for `room`.
-    pub(super) fn panel_text(&self, panel: Panel, room: Rect) -> Option<(String, Vec<Line>)> {
+    pub(crate) fn panel_text(&self, panel: Panel, room: Rect) -> Option<(String, Vec<Line>)> {
         let reading = self.picture.reading.as_ref()?;
         if let Some(veiled) = self.veil(panel, room.width.into()) {
             return Some(veiled);
@@ -167,7 +167,7 @@ impl Explorer {
     }
 
     /// Which step of how many; how many follow would tell how it comes out.
-    pub(super) fn step_title(&self) -> String {
+    pub(crate) fn step_title(&self) -> String {
         let Some(step) = self.current_step() else {
             return "steps".into();
         };
@@ -289,7 +289,7 @@ impl Explorer {
     }
 
     /// One step as large as the screen allows; its answer hidden until the key.
-    pub(super) fn draw_board(&self, pen: &mut Pen<'_>, area: Rect) {
+    pub(crate) fn draw_board(&self, pen: &mut Pen<'_>, area: Rect) {
         let Some(step) = self.current_step() else {
             return;
         };

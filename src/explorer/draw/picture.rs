@@ -2,49 +2,51 @@
 
 use ratatui::layout::Rect;
 
-use super::{Explorer, Options, arrival, layout};
 use crate::explain::{Drawn, Glyphs, Reading, Step, derivation};
+use crate::explorer::arrival;
+use crate::explorer::draw::layout;
+use crate::explorer::{Explorer, Options};
 use crate::method::Method;
 use crate::render::{Frame, Image, Look, View, fit};
 use crate::scene::{PixelShape, Rays, Scene, Size};
 
 /// The picture on the screen, and what it was made from.
 #[derive(Debug)]
-pub(super) struct Picture {
-    pub(super) key: Option<PictureKey>,
-    pub(super) rays: Rays,
-    pub(super) frame: Frame,
-    pub(super) image: Image,
+pub(crate) struct Picture {
+    pub(crate) key: Option<PictureKey>,
+    pub(crate) rays: Rays,
+    pub(crate) frame: Frame,
+    pub(crate) image: Image,
     /// First column and row of the picture that are on the screen.
-    pub(super) offset: (u32, u32),
+    pub(crate) offset: (u32, u32),
     /// Columns and rows of the picture, and the room, that the offset is for.
     scrolled_in: Option<(u32, u32, (u16, u16))>,
-    pub(super) reading: Option<Reading>,
-    pub(super) reading_key: Option<ReadingKey>,
+    pub(crate) reading: Option<Reading>,
+    pub(crate) reading_key: Option<ReadingKey>,
     /// The derivation of the reading.
-    pub(super) steps: Vec<Step>,
+    pub(crate) steps: Vec<Step>,
     /// Which of its results differ from those of the reading before.
-    pub(super) changed: Vec<bool>,
+    pub(crate) changed: Vec<bool>,
     /// Whether the last frame needed nothing of the picture.
-    pub(super) rests: bool,
+    pub(crate) rests: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct PictureKey {
-    pub(super) version: u64,
-    pub(super) size: Size,
-    pub(super) shape: PixelShape,
-    pub(super) method: Method,
-    pub(super) view: View,
-    pub(super) look: Look,
+pub(crate) struct PictureKey {
+    pub(crate) version: u64,
+    pub(crate) size: Size,
+    pub(crate) shape: PixelShape,
+    pub(crate) method: Method,
+    pub(crate) view: View,
+    pub(crate) look: Look,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct ReadingKey {
-    pub(super) picture: PictureKey,
-    pub(super) cursor: (u32, u32),
-    pub(super) selected: Option<usize>,
-    pub(super) chosen: Option<usize>,
+pub(crate) struct ReadingKey {
+    pub(crate) picture: PictureKey,
+    pub(crate) cursor: (u32, u32),
+    pub(crate) selected: Option<usize>,
+    pub(crate) chosen: Option<usize>,
 }
 
 impl Explorer {
@@ -97,7 +99,7 @@ impl Explorer {
 
     /// Brings picture and reading up to date between two drawings, for what acts on them: several
     /// events may come before the next drawing, and the outcome must not depend on how many.
-    pub(super) fn refresh(&mut self) {
+    pub(crate) fn refresh(&mut self) {
         let (cols, rows) = self.screen;
         if (cols, rows) != (0, 0) {
             self.prepare(cols, rows);
@@ -105,7 +107,7 @@ impl Explorer {
     }
 
     /// Keeps the cursor on the same place of the picture when the number of pixels changes.
-    pub(super) fn scale_cursor(&mut self, size: Size) {
+    pub(crate) fn scale_cursor(&mut self, size: Size) {
         let Some(old) = self.picture.key.map(|k| k.size) else {
             if self.scene().pixels.is_none() {
                 self.cursor = (size.width / 2, size.height / 2);
@@ -115,7 +117,7 @@ impl Explorer {
         self.cursor = arrival::scaled(self.cursor, old, size);
     }
 
-    pub(super) fn read(&mut self, picture: PictureKey) {
+    pub(crate) fn read(&mut self, picture: PictureKey) {
         let key = ReadingKey {
             // How finely the picture is drawn makes no other reading.
             picture: PictureKey {
@@ -167,7 +169,7 @@ impl Explorer {
 
 impl Picture {
     /// No picture yet, of a scene whose rays are known if it fixes its pixels.
-    pub(super) fn of(scene: &Scene) -> Self {
+    pub(crate) fn of(scene: &Scene) -> Self {
         let size = scene.pixels.unwrap_or(Size::new(1, 1));
         Self {
             key: None,
@@ -185,7 +187,7 @@ impl Picture {
     }
 
     /// Takes nothing of what is there for the picture of the scene that comes now.
-    pub(super) fn forget(&mut self) {
+    pub(crate) fn forget(&mut self) {
         (self.key, self.reading_key) = (None, None);
         // It speaks of spheres that the next scene may not have.
         self.reading = None;

@@ -1,6 +1,6 @@
 //! One line of text being typed.
 
-use super::key::Key;
+use crate::explorer::key::Key;
 
 /// Longest line taken: a paste of a whole file is no answer to a question.
 const LONGEST: usize = 4096;

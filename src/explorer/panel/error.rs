@@ -10,9 +10,9 @@ use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
 use std::thread;
 use std::time::Duration;
 
-use super::Explorer;
-use super::panel::Panel;
 use crate::explain::{self, Line, Role};
+use crate::explorer::Explorer;
+use crate::explorer::panel::Panel;
 use crate::lab::bench::Report;
 use crate::lab::picture::{NoChart, chart};
 use crate::lab::timing::SelfCheck;
@@ -44,12 +44,12 @@ impl fmt::Debug for Waker {
 
 /// What was measured, what is being measured, and why there is nothing.
 #[derive(Debug, Default)]
-pub(super) struct Measuring {
-    pub(super) waker: Waker,
-    pub(super) chart: Option<Chart>,
+pub(crate) struct Measuring {
+    pub(crate) waker: Waker,
+    pub(crate) chart: Option<Chart>,
     run: Option<Run>,
     /// Why the last measurement came to nothing.
-    pub(super) refusal: Option<NoChart>,
+    pub(crate) refusal: Option<NoChart>,
 }
 
 /// The picture that is asked about.
@@ -69,13 +69,13 @@ impl Subject {
 
 /// A measurement that has come to its end.
 #[derive(Debug)]
-pub(super) struct Chart {
-    pub(super) report: Report,
+pub(crate) struct Chart {
+    pub(crate) report: Report,
     of: Subject,
     /// The document's version and the rays for which `is_stale` was found out.
     seen: Option<(u64, Rays)>,
     /// Whether the screen shows another picture by now.
-    pub(super) is_stale: bool,
+    pub(crate) is_stale: bool,
 }
 
 /// A measurement on its way; it is called off when this is dropped.
@@ -135,12 +135,12 @@ impl Run {
 
 impl Measuring {
     /// Whether a measurement is on its way.
-    pub(super) const fn is_running(&self) -> bool {
+    pub(crate) const fn is_running(&self) -> bool {
         self.run.is_some()
     }
 
     /// What there is to say before the chart, or in its place, in lines of that width.
-    pub(super) fn remarks(&self, width: usize) -> Vec<Line> {
+    pub(crate) fn remarks(&self, width: usize) -> Vec<Line> {
         let mut remarks = Vec::new();
         if self.is_running() {
             remarks.push((
@@ -258,7 +258,7 @@ impl Explorer {
     }
 
     /// Times all methods on the questions of this picture, or stops doing so.
-    pub(super) fn measure(&mut self) {
+    pub(crate) fn measure(&mut self) {
         self.panel = Panel::Error;
         if self.measuring.run.take().is_some() {
             self.measuring.refusal = Some(NoChart::Cancelled);
@@ -292,7 +292,7 @@ impl Explorer {
     }
 
     /// Finds out whether the chart is of the picture on the screen.
-    pub(super) fn date_chart(&mut self) {
+    pub(crate) fn date_chart(&mut self) {
         let key = (self.document.version(), self.picture.rays);
         let Some(chart) = &mut self.measuring.chart else {
             return;

@@ -1,5 +1,10 @@
 //! Which panels there are, and how they share the space beside the picture.
 
+pub(crate) mod dial;
+pub(crate) mod draw;
+pub(crate) mod error;
+pub(crate) mod steps;
+
 use ratatui::layout::Rect;
 
 /// A panel beside the picture.

@@ -4,9 +4,9 @@ use std::fs::{self, OpenOptions};
 use std::io::Write as _;
 use std::path::Path;
 
-use super::key::Key;
-use super::mode::Mode;
-use super::{Explorer, Request};
+use crate::explorer::key::Key;
+use crate::explorer::mode::Mode;
+use crate::explorer::{Explorer, Request};
 use crate::lab::{Case, CaseForm, HEADER};
 
 impl Explorer {
@@ -31,7 +31,7 @@ impl Explorer {
 
     /// Copies the pixel in this form and shows what was copied: not every terminal lets programs
     /// copy.
-    pub(super) fn copy_case(&mut self, form: CaseForm) {
+    pub(crate) fn copy_case(&mut self, form: CaseForm) {
         // The cursor may have moved since the pixel was last read.
         let (cols, rows) = self.screen;
         self.prepare(cols, rows);
@@ -45,19 +45,19 @@ impl Explorer {
     }
 
     /// The lines of the case that is shown.
-    pub(super) fn case_lines(&self, form: CaseForm) -> Vec<String> {
+    pub(crate) fn case_lines(&self, form: CaseForm) -> Vec<String> {
         let text = self.case().map_or(String::new(), |case| case.text(form));
         text.lines().map(str::to_owned).collect()
     }
 
-    pub(super) fn press_in_case(&mut self, key: Key, form: CaseForm) {
+    pub(crate) fn press_in_case(&mut self, key: Key, form: CaseForm) {
         if key.is("&") || key.is("tab") {
             self.copy_case(form.next());
         }
     }
 
     /// Appends the pixel's row to a file of rows, which is made if it is not there.
-    pub(super) fn append_case(&mut self, path: &Path) {
+    pub(crate) fn append_case(&mut self, path: &Path) {
         let (cols, rows) = self.screen;
         self.prepare(cols, rows);
         let Some(case) = self.case() else {

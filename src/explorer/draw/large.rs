@@ -3,9 +3,9 @@
 use font8x8::{BASIC_FONTS, GREEK_FONTS, LATIN_FONTS, UnicodeFonts};
 use ratatui::layout::Rect;
 
-use super::draw::Pen;
-use super::theme::Theme;
 use crate::explain::{Glyphs, wrap};
+use crate::explorer::draw::pen::Pen;
+use crate::explorer::draw::theme::Theme;
 
 /// A letter is a square of so many dots.
 const DOTS: u16 = 8;
@@ -41,7 +41,7 @@ impl Grain {
 }
 
 /// Writes `text` from row `y` of `room`, as large as `rows` rows allow; returns the row below it.
-pub(super) fn draw(pen: &mut Pen<'_>, room: Rect, y: u16, rows: u16, text: &str) -> u16 {
+pub(crate) fn draw(pen: &mut Pen<'_>, room: Rect, y: u16, rows: u16, text: &str) -> u16 {
     let grains: &[Grain] = match pen.glyphs {
         Glyphs::Unicode => &[Grain::Half, Grain::Quadrant, Grain::Letter],
         Glyphs::Ascii => &[Grain::Whole, Grain::Letter],

@@ -3,17 +3,17 @@
 use ratatui::crossterm::event::{MouseButton, MouseEvent, MouseEventKind};
 use ratatui::layout::Rect;
 
-use super::Explorer;
-use super::action::Action;
-use super::layout;
-use super::mode::Mode;
+use crate::explorer::Explorer;
+use crate::explorer::action::Action;
+use crate::explorer::draw::layout;
+use crate::explorer::mode::Mode;
 
 /// How many lines of the help page a turn of the wheel scrolls.
 const WHEEL: usize = 3;
 
 impl Explorer {
     /// Takes the mouse, or leaves it to the terminal, which selects text with it.
-    pub(super) fn toggle_mouse(&mut self) {
+    pub(crate) fn toggle_mouse(&mut self) {
         self.mouse = !self.mouse;
         self.say(if self.mouse {
             "The mouse: a click moves the cursor, the wheel zooms. $ gives it back."
@@ -23,7 +23,7 @@ impl Explorer {
     }
 
     /// Heeds the mouse; false if that changes nothing.
-    pub(super) fn point(&mut self, event: MouseEvent) -> bool {
+    pub(crate) fn point(&mut self, event: MouseEvent) -> bool {
         if !self.mouse {
             return false;
         }

@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use std::process;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
-use super::Explorer;
-use super::document::Change;
-use super::link::command_line;
-use super::mode::{Mode, Question};
+use crate::explorer::Explorer;
+use crate::explorer::edit::document::Change;
+use crate::explorer::link::command_line;
+use crate::explorer::mode::{Mode, Question};
 use crate::scene::{Builtin, Scene, Source};
 
 /// What the line starts with that says which scene a file belongs to.
@@ -18,8 +18,8 @@ const BELONGS: &str = "# scene: ";
 
 /// Where unsaved work is kept.
 #[derive(Debug)]
-pub(super) struct Rescue {
-    pub(super) folder: PathBuf,
+pub(crate) struct Rescue {
+    pub(crate) folder: PathBuf,
     /// What the scene was opened as: a built-in's name, or the path of a file.
     scene: String,
     /// The file that the work at hand was taken from.
@@ -72,7 +72,7 @@ impl Explorer {
     }
 
     /// Takes up kept work, as a change that can be undone.
-    pub(super) fn recover(&mut self, path: &Path) {
+    pub(crate) fn recover(&mut self, path: &Path) {
         match Scene::load(path) {
             Ok(scene) => {
                 self.document.apply(Change::Scene(Box::new(scene)));
@@ -87,7 +87,7 @@ impl Explorer {
     }
 
     /// Deletes kept work.
-    pub(super) fn discard(&mut self, path: &Path) {
+    pub(crate) fn discard(&mut self, path: &Path) {
         match fs::remove_file(path) {
             Ok(()) => self.say("It is deleted."),
             Err(e) => self.warn(format!("{}: not deleted: {e}", path.display())),
@@ -95,7 +95,7 @@ impl Explorer {
     }
 
     /// What was kept is saved now; from here on unsaved work belongs to that file.
-    pub(super) fn saved_as(&mut self, path: &Path) {
+    pub(crate) fn saved_as(&mut self, path: &Path) {
         if let Some(rescue) = &mut self.rescue {
             rescue.forget_taken();
             rescue.scene = identity(&Source::File(path.to_owned()));
@@ -183,7 +183,7 @@ fn identity(source: &Source) -> String {
 }
 
 /// An age in the largest unit of which there is one: `3 hours`.
-pub(super) fn words(age: Duration) -> String {
+pub(crate) fn words(age: Duration) -> String {
     let seconds = age.as_secs();
     let (count, unit) = match seconds {
         0..60 => (seconds, "second"),

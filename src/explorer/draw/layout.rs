@@ -11,7 +11,7 @@
 
 use ratatui::layout::Rect;
 
-use super::Explorer;
+use crate::explorer::Explorer;
 use crate::render::Image;
 
 /// The smallest screen that is drawn on, in columns and rows.
@@ -152,7 +152,7 @@ pub fn centered(view: Rect, image: &Image, (left, top): (u32, u32)) -> Rect {
 
 impl Explorer {
     /// The layout of the screen as it is now.
-    pub(super) fn layout(&self, area: Rect) -> Option<Layout> {
+    pub(crate) fn layout(&self, area: Rect) -> Option<Layout> {
         let style = self.options.style;
         let picture = self.scene().pixels.map(|size| style.cells_of(size));
         Layout::with_box(area, picture, self.tour_rows(area))

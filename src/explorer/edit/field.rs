@@ -4,7 +4,7 @@ use crate::geometry::{Decimal, Invalid, Sphere};
 use crate::method::read;
 use crate::scene::{Camera, Projection, Scene};
 
-use super::document::Change;
+use crate::explorer::edit::document::Change;
 
 /// One number of a sphere or of the camera.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -140,7 +140,7 @@ impl Field {
 
 /// The scene with all these numbers, if a scene file could hold it: what two of them say together
 /// is checked, not what each says alone.
-pub(super) fn set_all(
+pub(crate) fn set_all(
     scene: &Scene,
     selected: Option<usize>,
     numbers: &[(Field, f32)],

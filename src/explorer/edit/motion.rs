@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3, Vec3};
 
-use crate::scene::{Camera, Projection};
+use crate::scene::{Camera, Projection, Scene};
 
 /// An orbit step at step size 1, in radians: 7.5°.
 const ORBIT_STEP: f64 = std::f64::consts::PI / 24.0;
@@ -133,6 +133,13 @@ fn shifted(camera: &Camera, shift: DVec3) -> Camera {
 /// The new camera, or the old one where rounding or range would leave it looking nowhere.
 fn keep_if_valid(old: &Camera, new: Camera) -> Camera {
     if new.check().is_ok() { new } else { *old }
+}
+
+/// A step that suits what the camera sees: a power of two, so that sums of steps stay exact.
+pub fn usual_step(scene: &Scene) -> f32 {
+    let step = window(&scene.camera) / 32.0;
+    let exponent = (step.log2().round()).clamp(-126.0, 120.0) as i32;
+    2.0_f32.powi(exponent)
 }
 
 #[cfg(test)]

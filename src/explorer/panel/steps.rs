@@ -1,10 +1,10 @@
 //! Walking through the derivation of a pixel: steps, predictions, the moving point.
 
-use super::Explorer;
-use super::act::turn;
-use super::key::Key;
-use super::panel::Panel;
 use crate::explain::{Digits, Landmark, Question, Step, landmarks, number};
+use crate::explorer::Explorer;
+use crate::explorer::act::turn;
+use crate::explorer::key::Key;
+use crate::explorer::panel::Panel;
 use crate::method::{Method, Precision};
 
 /// A step of the moving point, in radii.
@@ -16,33 +16,33 @@ const HALVES: [[&str; 2]; 4] = [["B", "b"], ["B²", "b²"], ["Δ", "D"], ["√Δ
 /// Predict, then reveal: whether results are kept back, and how the guesses went. Nothing of it is
 /// stored anywhere.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub(super) struct Prediction {
-    pub(super) on: bool,
+pub(crate) struct Prediction {
+    pub(crate) on: bool,
     /// The result of the step shown has been revealed.
-    pub(super) revealed: bool,
-    pub(super) right: u32,
-    pub(super) asked: u32,
+    pub(crate) revealed: bool,
+    pub(crate) right: u32,
+    pub(crate) asked: u32,
 }
 
 impl Explorer {
     /// The step that is shown.
-    pub(super) fn current_step(&self) -> Option<&Step> {
+    pub(crate) fn current_step(&self) -> Option<&Step> {
         let last = self.picture.steps.len().checked_sub(1)?;
         self.picture.steps.get(self.step_at.min(last))
     }
 
     /// Whether the result of the step shown is kept back.
-    pub(super) const fn is_hidden(&self) -> bool {
+    pub(crate) const fn is_hidden(&self) -> bool {
         (self.prediction.on || self.board) && !self.prediction.revealed
     }
 
     /// Whether results are to be predicted, so that nothing else may tell them.
-    pub(super) fn is_predicting(&self) -> bool {
+    pub(crate) fn is_predicting(&self) -> bool {
         self.prediction.on && !self.picture.steps.is_empty()
     }
 
     /// Whether the picture still tells what is to be predicted: whether something is seen.
-    pub(super) fn is_picture_veiled(&self) -> bool {
+    pub(crate) fn is_picture_veiled(&self) -> bool {
         let seen = |step: &Step| step.question == Some(Question::Seen);
         let last = self.picture.steps.iter().position(seen);
         self.is_predicting()
@@ -52,7 +52,7 @@ impl Explorer {
     }
 
     /// Opens the steps; with steps open, reveals the answer, else goes on.
-    pub(super) fn next_step(&mut self) {
+    pub(crate) fn next_step(&mut self) {
         let open = self.board || self.panel == Panel::Steps;
         if !open {
             self.panel = Panel::Steps;
@@ -63,7 +63,7 @@ impl Explorer {
         }
     }
 
-    pub(super) fn go_to_step(&mut self, at: usize) {
+    pub(crate) fn go_to_step(&mut self, at: usize) {
         let last = self.picture.steps.len().saturating_sub(1);
         if !self.board && self.panel != Panel::Bits {
             self.panel = Panel::Steps;
@@ -79,7 +79,7 @@ impl Explorer {
 
     /// Keeps the step that the person chose when the derivation becomes another one: the step of
     /// that name, or what another method has in its place, else one that stands as far down.
-    pub(super) fn keep_step(&mut self, before: &[Step]) {
+    pub(crate) fn keep_step(&mut self, before: &[Step]) {
         let chosen = match self.kept_step.take() {
             Some((name, at)) if at == self.step_at && !before.is_empty() => Some(name),
             _ => before.get(self.step_at).map(|step| step.name.clone()),
@@ -99,7 +99,7 @@ impl Explorer {
         self.kept_step = chosen.map(|name| (name, self.step_at));
     }
 
-    pub(super) fn go_to_step_named(&mut self, name: &str) {
+    pub(crate) fn go_to_step_named(&mut self, name: &str) {
         match self.step_named(name) {
             Ok(at) => self.go_to_step(at),
             Err(sentence) => self.warn(sentence),
@@ -107,7 +107,7 @@ impl Explorer {
     }
 
     /// The place of the step of that name or, from 1, of that number.
-    pub(super) fn step_named(&self, name: &str) -> Result<usize, String> {
+    pub(crate) fn step_named(&self, name: &str) -> Result<usize, String> {
         let steps = &self.picture.steps;
         let by_name = steps.iter().position(|s| s.name == name);
         let by_number = || name.parse().ok().and_then(|n: usize| n.checked_sub(1));
@@ -118,7 +118,7 @@ impl Explorer {
             .ok_or_else(|| format!("step: found “{name}”, expected a step's name or 1 to {count}"))
     }
 
-    pub(super) fn toggle_prediction(&mut self) {
+    pub(crate) fn toggle_prediction(&mut self) {
         let on = !self.prediction.on;
         self.prediction = Prediction {
             on,
@@ -133,7 +133,7 @@ impl Explorer {
     }
 
     /// The question that waits for an answer.
-    pub(super) fn pending_question(&self) -> Option<Question> {
+    pub(crate) fn pending_question(&self) -> Option<Question> {
         let shown = self.board || (self.prediction.on && self.panel == Panel::Steps);
         self.current_step()
             .filter(|_| shown && self.is_hidden())?
@@ -141,7 +141,7 @@ impl Explorer {
     }
 
     /// Takes a key as the answer to the question on the screen; false if it is none.
-    pub(super) fn answer_prediction(&mut self, key: Key) -> bool {
+    pub(crate) fn answer_prediction(&mut self, key: Key) -> bool {
         let Some(question) = self.pending_question() else {
             return false;
         };
@@ -172,7 +172,7 @@ impl Explorer {
 
     /// t of the moving point: where the person put it, else where something is seen, else where
     /// the ray comes nearest to the centre.
-    pub(super) fn moving_t(&self) -> f64 {
+    pub(crate) fn moving_t(&self) -> f64 {
         let subject = self.reading().and_then(|r| r.subject.as_ref());
         self.scrubbed.unwrap_or_else(|| {
             subject.map_or(0.0, |s| match s.sight {
@@ -183,7 +183,7 @@ impl Explorer {
     }
 
     /// Puts the moving point on the next place of the line that has a name, or the one before.
-    pub(super) fn go_to_landmark(&mut self, forward: bool) {
+    pub(crate) fn go_to_landmark(&mut self, forward: bool) {
         let Some((ray, sphere)) = self.reading().and_then(|r| {
             let subject = r.subject.as_ref()?;
             Some((r.ray, subject.sphere))
@@ -209,7 +209,7 @@ impl Explorer {
         }
     }
 
-    pub(super) fn scrub(&mut self, steps: f64) {
+    pub(crate) fn scrub(&mut self, steps: f64) {
         let subject = self.reading().and_then(|r| r.subject.as_ref());
         let Some(subject) = subject else {
             return self.say("There is no sphere to go along a ray to.");
@@ -227,7 +227,7 @@ impl Explorer {
     }
 
     /// The method that the chosen one is compared with.
-    pub(super) fn other_method(&self) -> Method {
+    pub(crate) fn other_method(&self) -> Method {
         let method = self.options.method;
         let next = || turn(&Method::ALL, method, 1);
         self.other_method
@@ -235,7 +235,7 @@ impl Explorer {
             .unwrap_or_else(next)
     }
 
-    pub(super) fn turn_comparison(&mut self) {
+    pub(crate) fn turn_comparison(&mut self) {
         let next = turn(&Method::ALL, self.other_method(), 1);
         let next = if next == self.options.method {
             turn(&Method::ALL, next, 1)

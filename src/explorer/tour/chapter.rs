@@ -13,10 +13,10 @@ use glam::Vec3;
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::arrival::Target;
-use super::command::{Command, choice};
-use super::field;
-use super::panel::Panel;
+use crate::explorer::arrival::Target;
+use crate::explorer::command::{Command, choice};
+use crate::explorer::edit::field;
+use crate::explorer::panel::Panel;
 use crate::method::Method;
 use crate::render::{Style, View};
 use crate::scene::{Builtin, FileError, Position, Scene, Size, Source};
@@ -41,75 +41,75 @@ pub struct Page {
     pub text: Vec<String>,
     /// What there is to do.
     pub attempt: Option<String>,
-    pub(super) state: State,
+    pub(crate) state: State,
 }
 
 /// The state of the explorer that a page speaks of.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct State {
+pub(crate) struct State {
     /// The scene, with the page's own numbers in it.
-    pub(super) scene: Arc<Scene>,
+    pub(crate) scene: Arc<Scene>,
     /// Where the scene came from; none if it is written in the chapter.
-    pub(super) source: Option<Source>,
-    pub(super) sphere: Option<usize>,
-    pub(super) target: Target,
-    pub(super) method: Method,
-    pub(super) view: View,
+    pub(crate) source: Option<Source>,
+    pub(crate) sphere: Option<usize>,
+    pub(crate) target: Target,
+    pub(crate) method: Method,
+    pub(crate) view: View,
     /// None: as the person has it.
-    pub(super) style: Option<Style>,
-    pub(super) panel: Panel,
-    pub(super) compare: Option<Method>,
-    pub(super) step: Option<String>,
+    pub(crate) style: Option<Style>,
+    pub(crate) panel: Panel,
+    pub(crate) compare: Option<Method>,
+    pub(crate) step: Option<String>,
     /// Where the moving point of slice and curve is; none: at what is seen.
-    pub(super) t: Option<f64>,
-    pub(super) predict: bool,
-    pub(super) board: bool,
+    pub(crate) t: Option<f64>,
+    pub(crate) predict: bool,
+    pub(crate) board: bool,
 }
 
 /// The chapters that come with the program, in their order.
 const BUILTIN: &[(&str, &str)] = &[
     (
         "01-circle-and-line.toml",
-        include_str!("tour/01-circle-and-line.toml"),
+        include_str!("chapters/01-circle-and-line.toml"),
     ),
-    ("02-the-ray.toml", include_str!("tour/02-the-ray.toml")),
+    ("02-the-ray.toml", include_str!("chapters/02-the-ray.toml")),
     (
         "03-substitution.toml",
-        include_str!("tour/03-substitution.toml"),
+        include_str!("chapters/03-substitution.toml"),
     ),
-    ("04-a-b-c.toml", include_str!("tour/04-a-b-c.toml")),
+    ("04-a-b-c.toml", include_str!("chapters/04-a-b-c.toml")),
     (
         "05-three-rays.toml",
-        include_str!("tour/05-three-rays.toml"),
+        include_str!("chapters/05-three-rays.toml"),
     ),
     (
         "06-the-screen.toml",
-        include_str!("tour/06-the-screen.toml"),
+        include_str!("chapters/06-the-screen.toml"),
     ),
     (
         "07-what-is-seen.toml",
-        include_str!("tour/07-what-is-seen.toml"),
+        include_str!("chapters/07-what-is-seen.toml"),
     ),
     (
         "08-behind-and-inside.toml",
-        include_str!("tour/08-behind-and-inside.toml"),
+        include_str!("chapters/08-behind-and-inside.toml"),
     ),
-    ("09-half-b.toml", include_str!("tour/09-half-b.toml")),
+    ("09-half-b.toml", include_str!("chapters/09-half-b.toml")),
     (
         "10-perspective.toml",
-        include_str!("tour/10-perspective.toml"),
+        include_str!("chapters/10-perspective.toml"),
     ),
     (
         "11-the-lost-sphere.toml",
-        include_str!("tour/11-the-lost-sphere.toml"),
+        include_str!("chapters/11-the-lost-sphere.toml"),
     ),
     (
         "12-above-the-ground.toml",
-        include_str!("tour/12-above-the-ground.toml"),
+        include_str!("chapters/12-above-the-ground.toml"),
     ),
     (
         "13-what-exact-costs.toml",
-        include_str!("tour/13-what-exact-costs.toml"),
+        include_str!("chapters/13-what-exact-costs.toml"),
     ),
 ];
 
@@ -419,7 +419,7 @@ impl State {
     }
 
     /// The sphere that is selected: the one named, else the first.
-    pub(super) fn selected(&self) -> Option<usize> {
+    pub(crate) fn selected(&self) -> Option<usize> {
         self.sphere.or((!self.scene.bodies.is_empty()).then_some(0))
     }
 }

@@ -3,14 +3,14 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::Explorer;
-use super::files::{self, Stamp};
-use super::mode::{Mode, Purpose, Question};
+use crate::explorer::Explorer;
+use crate::explorer::files::disk::{self, Stamp};
+use crate::explorer::mode::{Mode, Purpose, Question};
 use crate::scene::{Builtin, Scene, Source};
 
 /// Where the scene came from and goes to.
 #[derive(Debug, Clone)]
-pub(super) enum FilePlace {
+pub(crate) enum FilePlace {
     /// It has no file yet.
     None,
     Builtin(Builtin),
@@ -18,7 +18,7 @@ pub(super) enum FilePlace {
 }
 
 impl FilePlace {
-    pub(super) fn of(source: &Source) -> Self {
+    pub(crate) fn of(source: &Source) -> Self {
         match source {
             Source::File(path) => Stamp::of(path).map_or(Self::None, Self::File),
             Source::Builtin(builtin) => Self::Builtin(*builtin),
@@ -27,7 +27,7 @@ impl FilePlace {
 }
 
 impl Explorer {
-    pub(super) fn suggested_file(&self) -> String {
+    pub(crate) fn suggested_file(&self) -> String {
         match &self.place {
             FilePlace::File(stamp) => stamp.path().display().to_string(),
             FilePlace::None | FilePlace::Builtin(_) => {
@@ -42,7 +42,7 @@ impl Explorer {
         }
     }
 
-    pub(super) fn open(&mut self, name: &str) {
+    pub(crate) fn open(&mut self, name: &str) {
         // A pipe or a device could be waited for without end.
         let odd = |m: fs::Metadata| !m.is_file() && !m.is_dir();
         if Builtin::by_name(name).is_none() && fs::metadata(name).is_ok_and(odd) {
@@ -69,7 +69,7 @@ impl Explorer {
         }
     }
 
-    pub(super) fn save(&mut self) {
+    pub(crate) fn save(&mut self) {
         if self.document.turn().is_some() {
             return self.say(
                 "A dial is turned: | takes it back; :save-as keeps this scene under a name of its own.",
@@ -93,7 +93,7 @@ impl Explorer {
         }
     }
 
-    pub(super) fn save_as(&mut self, path: PathBuf) {
+    pub(crate) fn save_as(&mut self, path: PathBuf) {
         let own = matches!(&self.place, FilePlace::File(stamp) if stamp.path() == path);
         if own {
             self.save();
@@ -105,8 +105,8 @@ impl Explorer {
         }
     }
 
-    pub(super) fn write(&mut self, path: &Path) {
-        match files::save(path, &self.scene().to_toml()) {
+    pub(crate) fn write(&mut self, path: &Path) {
+        match disk::save(path, &self.scene().to_toml()) {
             Ok(stamp) => {
                 self.place = FilePlace::File(stamp);
                 self.document.mark_saved();

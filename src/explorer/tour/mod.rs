@@ -7,33 +7,37 @@
 //!  Try: what there is to do.
 //! ```
 
+pub(crate) mod chapter;
+
 use std::sync::Arc;
 
 use ratatui::layout::Rect;
 use ratatui::style::Style as CellStyle;
 use unicode_width::UnicodeWidthStr;
 
-use super::arrival::{Arrival, Target};
-use super::document::{Change, Document};
-use super::draw::Pen;
-use super::layout;
-use super::link;
-use super::mode::{Mode, Question};
-use super::panel::Panel;
-use super::rescue::Rescue;
-use super::saving::FilePlace;
-use super::stepping::Prediction;
-use super::theme::Theme;
-use super::tour::{self, Chapter, Page};
-use super::{Explorer, Options, usual_step};
 use crate::explain::wrap;
+use crate::explorer::arrival::{Arrival, Target};
+use crate::explorer::draw::layout;
+use crate::explorer::draw::pen::Pen;
+use crate::explorer::draw::theme::Theme;
+use crate::explorer::edit::document::{Change, Document};
+use crate::explorer::files::rescue::Rescue;
+use crate::explorer::files::saving::FilePlace;
+use crate::explorer::link;
+use crate::explorer::mode::{Mode, Question};
+use crate::explorer::panel::Panel;
+use crate::explorer::panel::steps::Prediction;
+use crate::explorer::usual_step;
+use crate::explorer::{Explorer, Options};
 use crate::method::Method;
 use crate::render::Style;
 use crate::scene::{Scene, Size};
 
+pub use chapter::{Chapter, Page, builtin, find, load};
+
 /// A page of some chapters.
 #[derive(Debug, Clone)]
-pub(super) struct Bookmark {
+pub(crate) struct Bookmark {
     chapters: Arc<[Chapter]>,
     chapter: usize,
     page: usize,
@@ -41,7 +45,7 @@ pub(super) struct Bookmark {
 
 /// The tour while it is open.
 #[derive(Debug)]
-pub(super) struct Tour {
+pub(crate) struct Tour {
     at: Bookmark,
     /// First line of the page's text that is shown.
     scroll: usize,
@@ -120,7 +124,7 @@ impl Bookmark {
 
 impl Tour {
     /// The command that opens this page, and the scene that it opens with.
-    pub(super) fn way_back(&self) -> Option<(Vec<String>, &Scene)> {
+    pub(crate) fn way_back(&self) -> Option<(Vec<String>, &Scene)> {
         let chapter = self.at.chapter()?;
         let name = match &chapter.file {
             Some(file) => link::as_file(file.to_str()?),
@@ -132,7 +136,7 @@ impl Tour {
     }
 
     /// Whether the work that waits has changes that were not saved.
-    pub(super) fn hides_changes(&self) -> bool {
+    pub(crate) fn hides_changes(&self) -> bool {
         self.before.document.is_changed()
     }
 }
@@ -148,7 +152,7 @@ impl Explorer {
     }
 
     /// Opens the tour where the person left it, or puts it away.
-    pub(super) fn toggle_tour(&mut self) {
+    pub(crate) fn toggle_tour(&mut self) {
         if self.tour.is_some() {
             self.leave_tour();
             self.say("Your own scene is back. ctrl-t returns to the tour.");
@@ -158,7 +162,7 @@ impl Explorer {
         }
     }
 
-    pub(super) fn tour_forward(&mut self) {
+    pub(crate) fn tour_forward(&mut self) {
         if self.tour.is_none() {
             return self.toggle_tour();
         }
@@ -175,7 +179,7 @@ impl Explorer {
         }
     }
 
-    pub(super) fn tour_back(&mut self) {
+    pub(crate) fn tour_back(&mut self) {
         let (shown, _) = self.tour_window();
         let Some(tour) = &mut self.tour else {
             return self.say_no_tour();
@@ -191,14 +195,14 @@ impl Explorer {
     }
 
     /// Sets everything as the page has it again.
-    pub(super) fn tour_again(&mut self) {
+    pub(crate) fn tour_again(&mut self) {
         match &self.tour {
             Some(tour) => self.turn_to(tour.at.clone()),
             None => self.say_no_tour(),
         }
     }
 
-    pub(super) fn tour_next_chapter(&mut self) {
+    pub(crate) fn tour_next_chapter(&mut self) {
         let Some(tour) = &self.tour else {
             return self.say_no_tour();
         };
@@ -208,7 +212,7 @@ impl Explorer {
         }
     }
 
-    pub(super) fn tour_previous_chapter(&mut self) {
+    pub(crate) fn tour_previous_chapter(&mut self) {
         let Some(tour) = &self.tour else {
             return self.say_no_tour();
         };
@@ -222,9 +226,9 @@ impl Explorer {
     }
 
     /// Opens the chapter of that name or number.
-    pub(super) fn tour_to(&mut self, word: &str) {
+    pub(crate) fn tour_to(&mut self, word: &str) {
         let at = self.bookmark();
-        let found = tour::find(&at.chapters, word).and_then(|chapter| at.in_chapter(chapter));
+        let found = find(&at.chapters, word).and_then(|chapter| at.in_chapter(chapter));
         if let Some(at) = found {
             return self.visit(at);
         }
@@ -240,11 +244,11 @@ impl Explorer {
         self.say("The tour is not open. f opens it.");
     }
 
-    pub(super) fn bookmark(&self) -> Bookmark {
+    pub(crate) fn bookmark(&self) -> Bookmark {
         let open = self.tour.as_ref().map(|t| t.at.clone());
         open.or_else(|| self.put_away.clone())
             .unwrap_or_else(|| Bookmark {
-                chapters: tour::builtin(),
+                chapters: builtin(),
                 chapter: 0,
                 page: 0,
             })
@@ -261,7 +265,7 @@ impl Explorer {
     }
 
     /// Opens the tour although there are unsaved changes: they wait.
-    pub(super) fn visit_unsaved(&mut self) {
+    pub(crate) fn visit_unsaved(&mut self) {
         let at = self.bookmark();
         self.turn_to(at);
     }
@@ -342,7 +346,7 @@ impl Explorer {
     }
 
     /// Puts the tour away and the person's own work back as it was.
-    pub(super) fn leave_tour(&mut self) {
+    pub(crate) fn leave_tour(&mut self) {
         let Some(Tour { at, before, .. }) = self.tour.take() else {
             return;
         };
@@ -372,12 +376,12 @@ impl Explorer {
 
 impl Explorer {
     /// Which chapter and page of the tour are open, from 0.
-    pub(super) fn tour_place(&self) -> Option<(usize, usize)> {
+    pub(crate) fn tour_place(&self) -> Option<(usize, usize)> {
         self.tour.as_ref().map(|t| (t.at.chapter, t.at.page))
     }
 
     /// The page of the tour as paragraphs, its title first.
-    pub(super) fn tour_text(&self) -> Option<Vec<String>> {
+    pub(crate) fn tour_text(&self) -> Option<Vec<String>> {
         let at = &self.tour.as_ref()?.at;
         let (chapter, page) = (at.chapter()?, at.page()?);
         let title = format!(
@@ -455,7 +459,7 @@ const GAP: u16 = 4;
 impl Explorer {
     /// Rows of the box at the bottom of a screen of `area`: as many as the longest page of the
     /// chapter needs, as long as picture and panel stay useful. None where there is no room.
-    pub(super) fn tour_rows(&self, area: Rect) -> u16 {
+    pub(crate) fn tour_rows(&self, area: Rect) -> u16 {
         let Some(chapter) = self.tour.as_ref().and_then(|t| t.at.chapter()) else {
             return 0;
         };
@@ -491,7 +495,7 @@ impl Explorer {
     }
 
     /// The box under the picture.
-    pub(super) fn draw_tour(&self, pen: &mut Pen<'_>, area: Rect) {
+    pub(crate) fn draw_tour(&self, pen: &mut Pen<'_>, area: Rect) {
         let Some((tour, chapter)) = self.tour.as_ref().and_then(|t| Some((t, t.at.chapter()?)))
         else {
             return;

@@ -2,8 +2,9 @@
 
 use glam::Vec3;
 
-use super::document::Change;
-use super::{Explorer, motion};
+use crate::explorer::Explorer;
+use crate::explorer::edit::document::Change;
+use crate::explorer::edit::motion;
 use crate::geometry::{Decimal, Sphere};
 use crate::method::{Class, Method};
 use crate::scene::Body;
@@ -14,13 +15,13 @@ const NEW_RADIUS: f64 = 1.0 / 8.0;
 const GROWTH: f32 = 2.0;
 
 impl Explorer {
-    pub(super) fn select(&mut self, at: usize) {
+    pub(crate) fn select(&mut self, at: usize) {
         self.selected = Some(at);
         // What the person selects is what the panel should show, if the line meets it.
         self.chosen = Some(at);
     }
 
-    pub(super) fn select_neighbour(&mut self, by: isize) {
+    pub(crate) fn select_neighbour(&mut self, by: isize) {
         let count = self.scene().bodies.len() as isize;
         if count == 0 {
             return self.say("The scene has no spheres. i adds one.");
@@ -35,7 +36,7 @@ impl Explorer {
         self.say(format!("Sphere {} of {count}{name} is selected.", at + 1));
     }
 
-    pub(super) fn select_shown(&mut self) {
+    pub(crate) fn select_shown(&mut self) {
         if let Some(subject) = self.reading().and_then(|r| r.subject.as_ref()) {
             let at = subject.body;
             self.select(at);
@@ -43,7 +44,7 @@ impl Explorer {
         }
     }
 
-    pub(super) fn choose_next_on_line(&mut self) {
+    pub(crate) fn choose_next_on_line(&mut self) {
         let Some(reading) = self.reading() else {
             return;
         };
@@ -60,7 +61,7 @@ impl Explorer {
     }
 
     /// After spheres have come or gone: the numbers still name spheres that are there.
-    pub(super) fn mend_selection(&mut self) {
+    pub(crate) fn mend_selection(&mut self) {
         let count = self.scene().bodies.len();
         self.selected = match (self.selected, count) {
             (_, 0) => None,
@@ -97,7 +98,7 @@ impl Explorer {
         }
     }
 
-    pub(super) fn move_sphere(&mut self, axis: usize, steps: f32) {
+    pub(crate) fn move_sphere(&mut self, axis: usize, steps: f32) {
         let step = self.step;
         if let Some((at, body)) = self.selected_body() {
             let mut center = body.sphere.center;
@@ -107,7 +108,7 @@ impl Explorer {
         }
     }
 
-    pub(super) fn grow(&mut self, steps: f32) {
+    pub(crate) fn grow(&mut self, steps: f32) {
         let step = self.step;
         if let Some((at, body)) = self.selected_body() {
             let Sphere { center, radius } = body.sphere;
@@ -118,7 +119,7 @@ impl Explorer {
         }
     }
 
-    pub(super) fn add_sphere(&mut self) {
+    pub(crate) fn add_sphere(&mut self) {
         let camera = self.scene().camera;
         let radius = (motion::window(&camera) * NEW_RADIUS) as f32;
         match Sphere::new(camera.look_at, radius) {
@@ -134,7 +135,7 @@ impl Explorer {
         }
     }
 
-    pub(super) fn duplicate_sphere(&mut self) {
+    pub(crate) fn duplicate_sphere(&mut self) {
         let step = self.step;
         if let Some((_, mut body)) = self.selected_body() {
             body.sphere.center.x += step;
@@ -155,7 +156,7 @@ impl Explorer {
         self.say(format!("Sphere {} {how}.", at + 1));
     }
 
-    pub(super) fn delete_sphere(&mut self) {
+    pub(crate) fn delete_sphere(&mut self) {
         if let Some((at, _)) = self.selected_body() {
             self.document.apply(Change::Remove(at));
             self.chosen = None;
@@ -165,7 +166,7 @@ impl Explorer {
     }
 
     /// The radius for which Δ = 0 at the cursor, and what the method makes of it.
-    pub(super) fn make_tangent(&mut self) {
+    pub(crate) fn make_tangent(&mut self) {
         let Some(subject) = self.reading().and_then(|r| r.subject.as_ref()) else {
             return self.say("There is no sphere to change.");
         };
@@ -201,7 +202,7 @@ impl Explorer {
 
     /// Puts the cursor on the pixel nearest to it whose ray touches the sphere shown, or on the
     /// pixel whose ray comes nearest to touching.
-    pub(super) fn snap_tangent(&mut self) {
+    pub(crate) fn snap_tangent(&mut self) {
         let Some(subject) = self.reading().and_then(|r| r.subject.as_ref()) else {
             return self.say("There is no sphere to touch.");
         };

@@ -1,22 +1,26 @@
 //! What keys mean now: actions, or text, or an answer.
 
+pub(crate) mod export_case;
+pub(crate) mod line;
+pub(crate) mod mouse;
+
 use std::path::PathBuf;
 use std::time::Duration;
 
-use super::Explorer;
-use super::action::Action;
-use super::command::{self, Command};
-use super::field::{Field, parse_number};
-use super::key::Key;
-use super::prompt::Line;
-use super::rescue;
-use super::touring::Tour;
+use crate::explorer::Explorer;
+use crate::explorer::action::Action;
+use crate::explorer::command::{self, Command};
+use crate::explorer::edit::field::{Field, parse_number};
+use crate::explorer::files::rescue;
+use crate::explorer::key::Key;
+use crate::explorer::mode::line::Line;
+use crate::explorer::tour::Tour;
 use crate::geometry::Decimal;
 use crate::lab::CaseForm;
 
 /// What keys mean now.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Mode {
+pub(crate) enum Mode {
     Normal,
     Help {
         scroll: usize,
@@ -30,22 +34,22 @@ pub(super) enum Mode {
 
 /// A line being typed, and what for.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Prompt {
-    pub(super) purpose: Purpose,
-    pub(super) line: Line,
+pub(crate) struct Prompt {
+    pub(crate) purpose: Purpose,
+    pub(crate) line: Line,
     /// Completions of what was typed, and which one is shown.
-    pub(super) completions: Option<(Vec<String>, usize)>,
+    pub(crate) completions: Option<(Vec<String>, usize)>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Purpose {
+pub(crate) enum Purpose {
     Command,
     Open,
     SaveAs,
 }
 
 impl Purpose {
-    pub(super) const fn question(self) -> &'static str {
+    pub(crate) const fn question(self) -> &'static str {
         match self {
             Self::Command => ":",
             Self::Open => "open: ",
@@ -65,14 +69,14 @@ impl Purpose {
 
 /// The list of numbers that can be typed.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Form {
-    pub(super) at: usize,
-    pub(super) typing: Option<Line>,
+pub(crate) struct Form {
+    pub(crate) at: usize,
+    pub(crate) typing: Option<Line>,
 }
 
 /// What has to be answered before something is lost.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Question {
+pub(crate) enum Question {
     Quit,
     Open(String),
     Recover { path: PathBuf, age: Duration },
@@ -81,7 +85,7 @@ pub(super) enum Question {
 }
 
 impl Question {
-    pub(super) fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         match self {
             Self::Quit => {
                 "Unsaved changes.  s save and quit   D quit without saving   esc stay".into()
@@ -105,14 +109,14 @@ impl Question {
 
 /// A sentence for the person, shown until the next key.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Message {
-    pub(super) text: String,
-    pub(super) warning: bool,
+pub(crate) struct Message {
+    pub(crate) text: String,
+    pub(crate) warning: bool,
 }
 
 impl Explorer {
     /// Text that was pasted goes into a line being typed; it is never a burst of commands.
-    pub(super) fn paste(&mut self, text: &str) -> bool {
+    pub(crate) fn paste(&mut self, text: &str) -> bool {
         match &mut self.mode {
             Mode::Prompt(Prompt {
                 line, completions, ..
@@ -128,7 +132,7 @@ impl Explorer {
         true
     }
 
-    pub(super) fn press(&mut self, key: Key) {
+    pub(crate) fn press(&mut self, key: Key) {
         if key.is("ctrl-c") {
             return self.interrupt();
         }
@@ -157,7 +161,7 @@ impl Explorer {
     }
 
     /// Ends the program, or asks first if that would lose something.
-    pub(super) fn quit(&mut self) {
+    pub(crate) fn quit(&mut self) {
         if self.is_worth_saving() {
             self.ask_before_quitting();
         } else {
@@ -167,7 +171,7 @@ impl Explorer {
 
     /// Ctrl-C ends the program as SIGINT would; with unsaved changes it asks first, once, and if it ends
     /// all the same they are kept as when the terminal is lost.
-    pub(super) fn interrupt(&mut self) {
+    pub(crate) fn interrupt(&mut self) {
         if self.is_worth_saving() && self.mode != Mode::Ask(Question::Quit) {
             self.ask_before_quitting();
         } else {
@@ -176,7 +180,7 @@ impl Explorer {
     }
 
     /// Asks about what is unsaved, in front of it: work that waits behind the tour comes back first.
-    pub(super) fn ask_before_quitting(&mut self) {
+    pub(crate) fn ask_before_quitting(&mut self) {
         if self.tour.as_ref().is_some_and(Tour::hides_changes) {
             self.leave_tour();
         }
@@ -185,7 +189,7 @@ impl Explorer {
         self.mode = Mode::Ask(Question::Quit);
     }
 
-    pub(super) fn press_in_help(&mut self, key: Key, scroll: usize) {
+    pub(crate) fn press_in_help(&mut self, key: Key, scroll: usize) {
         let scroll = if key.is("down") || key.is("j") {
             scroll + 1
         } else if key.is("up") || key.is("k") {
@@ -200,12 +204,12 @@ impl Explorer {
         self.scroll_help(scroll);
     }
 
-    pub(super) fn scroll_help(&mut self, scroll: usize) {
+    pub(crate) fn scroll_help(&mut self, scroll: usize) {
         let scroll = scroll.min(self.help_lines() - 1);
         self.mode = Mode::Help { scroll };
     }
 
-    pub(super) fn press_in_prompt(&mut self, key: Key, mut prompt: Prompt) {
+    pub(crate) fn press_in_prompt(&mut self, key: Key, mut prompt: Prompt) {
         if key.is("esc") {
             return;
         }
@@ -228,7 +232,7 @@ impl Explorer {
         self.mode = Mode::Prompt(prompt);
     }
 
-    pub(super) fn press_in_form(&mut self, key: Key, mut form: Form) {
+    pub(crate) fn press_in_form(&mut self, key: Key, mut form: Form) {
         let fields = Field::of(self.scene(), self.selected);
         let last = fields.len() - 1;
         form.at = form.at.min(last);
@@ -269,7 +273,7 @@ impl Explorer {
     }
 
     /// Gives a field the number that was typed; false, with a sentence, if it can't have it.
-    pub(super) fn set_typed(&mut self, field: Field, text: &str) -> bool {
+    pub(crate) fn set_typed(&mut self, field: Field, text: &str) -> bool {
         let change = parse_number(&field.name(), text)
             .and_then(|value| field.set(self.scene(), self.selected, value));
         match change {
@@ -284,7 +288,7 @@ impl Explorer {
         }
     }
 
-    pub(super) fn answer(&mut self, key: Key, question: Question) {
+    pub(crate) fn answer(&mut self, key: Key, question: Question) {
         match question {
             Question::Quit if key.is("s") => {
                 self.save();

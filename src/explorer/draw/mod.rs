@@ -1,0 +1,8 @@
+//! The screen as cells: where its parts lie, how they look, and the picture in it.
+
+pub(crate) mod large;
+pub(crate) mod layout;
+pub(crate) mod pen;
+pub(crate) mod picture;
+pub(crate) mod screen;
+pub(crate) mod theme;

@@ -1,0 +1,156 @@
+//! Writes text, borders and lines with roles into cells.
+
+use ratatui::buffer::Buffer;
+use ratatui::layout::{Position, Rect};
+use ratatui::style::Style as CellStyle;
+use unicode_width::UnicodeWidthStr;
+
+use crate::explain::{Glyphs, Line, Role, Span};
+use crate::explorer::draw::theme::Theme;
+
+/// Writes text into cells: cut at the edge, spelt in the characters that there are.
+pub(crate) struct Pen<'a> {
+    pub(crate) buffer: &'a mut Buffer,
+    pub(crate) glyphs: Glyphs,
+    pub(crate) theme: Theme,
+}
+
+impl Pen<'_> {
+    /// Writes `text` from (x, y) in at most `room` columns; returns the column after it.
+    pub(crate) fn text(&mut self, x: u16, y: u16, room: u16, text: &str, style: CellStyle) -> u16 {
+        if !self.buffer.area.contains(Position::new(x, y)) {
+            return x;
+        }
+        let text = self.glyphs.spell(text);
+        let cut = if text.width() > room.into() {
+            cut(&text, room.into(), self.glyphs.spell("…").as_str())
+        } else {
+            text
+        };
+        self.buffer.set_stringn(x, y, cut, room.into(), style).0
+    }
+
+    /// A border around `area` with a title in its upper and one in its lower edge.
+    pub(crate) fn frame(&mut self, area: Rect, title: &str, foot: &str) {
+        if area.width < 2 || area.height < 2 {
+            return;
+        }
+        let [h, v, corners @ ..] = match self.glyphs {
+            Glyphs::Unicode => ["─", "│", "┌", "┐", "└", "┘"],
+            Glyphs::Ascii => ["-", "|", "+", "+", "+", "+"],
+        };
+        let style = Theme::border();
+        let (right, bottom) = (area.right() - 1, area.bottom() - 1);
+        for x in area.left() + 1..right {
+            self.buffer.set_string(x, area.top(), h, style);
+            self.buffer.set_string(x, bottom, h, style);
+        }
+        for y in area.top() + 1..bottom {
+            self.buffer.set_string(area.left(), y, v, style);
+            self.buffer.set_string(right, y, v, style);
+        }
+        let places = [
+            (area.left(), area.top()),
+            (right, area.top()),
+            (area.left(), bottom),
+            (right, bottom),
+        ];
+        for ((x, y), corner) in places.into_iter().zip(corners) {
+            self.buffer.set_string(x, y, corner, style);
+        }
+        for (y, text) in [(area.top(), title), (bottom, foot)] {
+            self.border_text(area, y, text, None);
+        }
+    }
+
+    /// Words in the border of `area`: on the left, or on the right if there they cover the mark in
+    /// column `mark`.
+    pub(crate) fn border_text(&mut self, area: Rect, y: u16, text: &str, mark: Option<u16>) {
+        let room = area.width.saturating_sub(4);
+        if text.is_empty() || room <= 4 {
+            return;
+        }
+        let text = format!(" {text} ");
+        let width = (text.width() as u16).min(room);
+        let (left, right) = (area.x + 2, area.right() - 2 - width);
+        let covers = |x: u16| mark.is_some_and(|mark| (x..x + width).contains(&mark));
+        let x = if covers(left) && !covers(right) {
+            right
+        } else {
+            left
+        };
+        self.text(x, y, width, &text, CellStyle::new());
+    }
+
+    /// Words at the right end of the upper edge of a border, if they leave its title room.
+    pub(crate) fn corner(&mut self, area: Rect, text: &str) {
+        let text = format!(" {text} ");
+        let width = text.width() as u16;
+        if 2 * (width + 2) <= area.width {
+            let x = area.right() - width - 2;
+            self.text(x, area.y, width, &text, CellStyle::new());
+        }
+    }
+
+    /// Lines with roles, from the top of `area`.
+    pub(crate) fn lines(&mut self, area: Rect, lines: &[Line]) {
+        for (y, line) in (area.top()..area.bottom()).zip(lines) {
+            let mut spelt = self.spelt(line, false);
+            // A number may get longer: its formula is not to jump when it does.
+            let room = |(text, role): &(String, Role)| match role {
+                Role::Value => text.width().max(LONG),
+                _ => text.width(),
+            };
+            let width: usize = spelt.iter().map(room).sum();
+            if width > usize::from(area.width) {
+                spelt = self.spelt(line, true);
+            }
+            let mut x = area.x;
+            for (text, role) in spelt {
+                let room = area.right().saturating_sub(x);
+                x = self.text(x, y, room, &text, self.theme.role(role));
+            }
+        }
+    }
+
+    /// A line in the characters that there are; `tight` writes its formulas without blanks, so that
+    /// the numbers behind them are not cut.
+    fn spelt(&self, line: &Line, tight: bool) -> Vec<(String, Role)> {
+        let mut longer = 0;
+        let spell = |span: &Span| {
+            let mut text = self.glyphs.spell(&span.text);
+            if tight && span.role == Role::Formula {
+                text = text.replace("sqrt disc", "sqrt(disc)").replace(' ', "");
+            }
+            longer += text.chars().count();
+            longer = longer.saturating_sub(span.text.chars().count());
+            // What is spelt longer takes its room from the gap behind it: columns stay columns.
+            if text.len() > 1 && text.bytes().all(|b| b == b' ') {
+                let taken = longer.min(text.len() - 1);
+                text.truncate(text.len() - taken);
+                longer -= taken;
+            }
+            (text, span.role)
+        };
+        line.spans.iter().map(spell).collect()
+    }
+}
+
+/// As long as most values are: with its sign and six digits.
+const LONG: usize = 9;
+
+/// The first columns of `text`, ending in a mark that says it goes on.
+fn cut(text: &str, room: usize, mark: &str) -> String {
+    let Some(room) = room.checked_sub(mark.width()) else {
+        return String::new();
+    };
+    let mut kept = String::new();
+    for c in text.chars() {
+        let next = format!("{kept}{c}");
+        if next.width() > room {
+            break;
+        }
+        kept = next;
+    }
+    kept + mark
+}

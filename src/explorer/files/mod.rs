@@ -1,0 +1,5 @@
+//! Files of scenes: opening, saving, and keeping unsaved work.
+
+pub(crate) mod disk;
+pub(crate) mod rescue;
+pub(crate) mod saving;

@@ -1,0 +1,84 @@
+//! How the explorer is drawn, why so, and what it asks of the loop that runs it.
+
+use crate::explain::Glyphs;
+use crate::explorer::draw::theme::Palette;
+use crate::method::Method;
+use crate::render::{ColorDepth, Style, View};
+
+/// How the explorer starts.
+#[derive(Debug, Clone, Copy)]
+pub struct Options {
+    /// The method that is asked first.
+    pub method: Method,
+    /// The style of the picture.
+    pub style: Style,
+    /// What the picture shows.
+    pub view: View,
+    /// Height of a cell over its width.
+    pub aspect: f64,
+    /// The colours that the terminal has.
+    pub depth: ColorDepth,
+    /// Which of them serve what.
+    pub palette: Palette,
+    /// The characters that the terminal has.
+    pub glyphs: Glyphs,
+    /// Why these.
+    pub reasons: Reasons,
+}
+
+/// Why the screen is drawn as it is, in a few words each, for the help page.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Reasons {
+    /// Why so many colours.
+    pub depth: &'static str,
+    /// Why this theme.
+    pub palette: &'static str,
+    /// Why these characters.
+    pub glyphs: &'static str,
+}
+
+impl Default for Reasons {
+    fn default() -> Self {
+        Self {
+            depth: "the usual",
+            palette: "the usual",
+            glyphs: "the usual",
+        }
+    }
+}
+
+impl Options {
+    /// The colours that are used: none in a theme without.
+    pub const fn colors(&self) -> ColorDepth {
+        match self.palette {
+            Palette::Monochrome => ColorDepth::None,
+            Palette::Dark | Palette::Light | Palette::HighContrast => self.depth,
+        }
+    }
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            method: Method::default(),
+            style: Style::Half,
+            view: View::Shade,
+            aspect: 2.0,
+            depth: ColorDepth::Ansi256,
+            palette: Palette::default(),
+            glyphs: Glyphs::Unicode,
+            reasons: Reasons::default(),
+        }
+    }
+}
+
+/// What the explorer can't do itself.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Request {
+    /// Stop this process and give the terminal to the shell.
+    Suspend,
+    /// Put this text where the person can paste it from.
+    Copy(String),
+    /// Draw all of the screen anew, whatever the terminal shows.
+    Redraw,
+}
