@@ -11,12 +11,10 @@ use serde::Serialize;
 
 use super::print::{fit_in, size, view_in};
 use super::{INVALID, MISUSED, aspect, choice, complain, from_one, write_out};
-use crate::explain;
+use crate::explain::{self, PlanLine};
 use crate::explorer::usual_step;
 use crate::method::Method;
-use crate::render::{
-    AnsiColor, CELL_ASPECT, Cell, ColorDepth, Frame, Image, Line, Look, Style, View,
-};
+use crate::render::{AnsiColor, CELL_ASPECT, Cell, ColorDepth, Frame, Image, Look, Style, View};
 use crate::scene::{PixelShape, Rays, Rgb, Scene, Size};
 use crate::terminal::{Capability, Limits, Painter};
 
@@ -82,14 +80,6 @@ struct Entry {
     what: String,
     how: &'static str,
     plan: Vec<PlanLine>,
-}
-
-#[derive(Debug, Serialize)]
-struct PlanLine {
-    what: &'static str,
-    kept: u64,
-    left_out: u64,
-    because: String,
 }
 
 /// Works out the plans, writes them and ends with the exit status.
@@ -181,31 +171,24 @@ impl Screen {
         let rays = Rays::new(&scene.camera, self.size, self.shape);
         self.frame.render(scene, &rays, self.method, self.view);
         self.image.draw(&self.frame, scene, self.look);
-        let mut lines = self.frame.plan().lines();
-        lines.extend(self.image.plan());
+        let plan = self.frame.plan();
+        let mut lines = explain::plan_lines(plan, &self.image);
+        let how = explain::plan_sentence(plan);
         lines.push(self.bytes());
         Entry {
             frame,
             what: what.into(),
-            how: self.frame.plan().sentence(),
-            plan: lines
-                .into_iter()
-                .map(|line| PlanLine {
-                    what: line.what,
-                    kept: line.kept,
-                    left_out: line.left_out,
-                    because: line.because.into_owned(),
-                })
-                .collect(),
+            how,
+            plan: lines,
         }
     }
 
-    fn bytes(&mut self) -> Line {
+    fn bytes(&mut self) -> PlanLine {
         let limits = Limits::default();
         let cells = || buffer_of(&self.image, self.look.depth);
         let all = Painter::default().paint(&mut cells(), None, limits).len() as u64;
         let sent = self.painter.paint(&mut cells(), None, limits).len() as u64;
-        Line::new(
+        PlanLine::new(
             "bytes sent",
             sent,
             all.saturating_sub(sent),
@@ -259,16 +242,12 @@ fn text(report: &Report) -> String {
         what, how, plan, ..
     } in &report.frames
     {
-        let lines: Vec<Line> = plan
-            .iter()
-            .map(|l| Line::new(l.what, l.kept, l.left_out, l.because.clone()))
-            .collect();
         let _ = writeln!(out, "\n{what}");
         for line in explain::wrap(how, 80) {
             let _ = writeln!(out, "{line}");
         }
         out += "\n";
-        out += &explain::plan_text(&lines, 80);
+        out += &explain::plan_text(plan, 80);
     }
     out
 }

@@ -4,7 +4,6 @@ use std::ops::Range;
 
 use super::cover::Bounds;
 use super::ink::{Ink, NO_ANSWER, ink};
-use super::plan::Line;
 use super::ramp::Ramps;
 use super::{ColorDepth, Contact, Frame, Style, View};
 use crate::scene::{Rgb, Scene, Size};
@@ -125,25 +124,14 @@ impl Image {
         }
     }
 
-    /// The part of the plan that is about cells: how many were drawn for the last frame, and how many
-    /// of them came out other than they were.
-    pub fn plan(&self) -> [Line; 2] {
-        let all = self.cells.len() as u64;
-        let [drawn, changed] = [self.drawn, self.changed].map(|n| n.min(all));
-        [
-            Line::new(
-                "cells drawn",
-                drawn,
-                all - drawn,
-                "a cell shows its own pixels and the edges to those beside them",
-            ),
-            Line::new(
-                "cells changed",
-                changed,
-                all - changed,
-                "what looks the same is not sent",
-            ),
-        ]
+    /// How many cells were drawn for the last frame.
+    pub fn cells_drawn(&self) -> u64 {
+        self.drawn.min(self.cells.len() as u64)
+    }
+
+    /// How many of them came out other than they were.
+    pub fn cells_changed(&self) -> u64 {
+        self.changed.min(self.cells.len() as u64)
     }
 
     /// The cell in this column and row, if the image has it.

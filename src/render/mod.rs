@@ -32,7 +32,7 @@ pub use frame::{Frame, Hit, Lost};
 pub use image::{Cell, Image, Look};
 pub use ink::RAMP;
 pub use layer::Contact;
-pub use plan::{Counts, Line, Plan};
+pub use plan::{Counts, Plan, Way};
 pub use shade::AMBIENT;
 pub use style::{CELL_ASPECT, Style, fit};
 pub use view::View;

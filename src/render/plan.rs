@@ -1,11 +1,8 @@
 //! The plan: what one frame of one scene needs, what was left out, and why that changes no bit.
 //!
 //! The way to ask is chosen here, before the work: [`Plan::new`] decides, the rest of the module does
-//! as it says. Each reason holds with proof, see docs/plan.md; the counts are of questions, not of time,
-//! and the same on every machine.
-
-use std::borrow::Cow;
-use std::fmt;
+//! as it says, and the counts are of questions, not of time, so that they are the same on every machine.
+//! docs/plan.md has the proofs; `explain` has the reasons in words.
 
 use super::View;
 use crate::method::Method;
@@ -14,7 +11,7 @@ use crate::scene::{Body, Light, Rays, Scene, Size};
 
 /// How the spheres are asked about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub(super) enum Way {
+pub enum Way {
     /// `exact`: where a sphere can be seen, by a test with a bound on its error, and the method
     /// itself where that leaves the answer open.
     Certified,
@@ -64,6 +61,11 @@ pub struct Counts {
 }
 
 impl Counts {
+    /// How many tests of one pixel and one sphere the hidden runs would have been.
+    pub const fn hidden_tests(&self) -> u64 {
+        self.hidden_runs * super::lanes::SINGLES as u64
+    }
+
     /// Notes rows of a sphere whose pixels from the first to the last of these columns are looked at.
     #[inline(always)]
     pub(super) const fn note_rows(&mut self, rows: i16, [first, last]: [i16; 2]) {
@@ -103,36 +105,6 @@ pub struct Plan {
     light: Option<Light>,
     spheres: u64,
     pub(super) counts: Counts,
-}
-
-/// One thing that a frame may need.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Line {
-    /// The thing.
-    pub what: &'static str,
-    /// How many of it were done.
-    pub kept: u64,
-    /// How many were not.
-    pub left_out: u64,
-    /// Why that changes nothing, or why nothing could be left out.
-    pub because: Cow<'static, str>,
-}
-
-impl Line {
-    /// A line of these words and numbers.
-    pub fn new(
-        what: &'static str,
-        kept: u64,
-        left_out: u64,
-        because: impl Into<Cow<'static, str>>,
-    ) -> Self {
-        Self {
-            what,
-            kept,
-            left_out,
-            because: because.into(),
-        }
-    }
 }
 
 impl Plan {
@@ -188,12 +160,28 @@ impl Plan {
         key(self) == key(other)
     }
 
-    pub(super) const fn way(&self) -> Way {
+    /// How the spheres are asked about.
+    pub const fn way(&self) -> Way {
         self.way
     }
 
+    /// How many spheres the scene has.
+    pub const fn spheres(&self) -> u64 {
+        self.spheres
+    }
+
+    /// Whether all rays start at one point; else they have one direction.
+    pub const fn is_perspective(&self) -> bool {
+        self.perspective
+    }
+
+    /// Whether b = o·d is the same for all rays of a sphere.
+    pub const fn has_constant_b(&self) -> bool {
+        self.constant_b
+    }
+
     /// Whether the certified way takes roots to tell which sphere is nearer.
-    pub(super) const fn roots_tell_depths(&self) -> bool {
+    pub const fn roots_tell_depths(&self) -> bool {
         !self.apart
     }
 
@@ -213,7 +201,7 @@ impl Plan {
     }
 
     /// Where the light of the shades comes from.
-    pub(super) const fn light(&self) -> Option<Light> {
+    pub const fn light(&self) -> Option<Light> {
         self.light
     }
 
@@ -221,363 +209,7 @@ impl Plan {
     pub const fn counts(&self) -> &Counts {
         &self.counts
     }
-
-    /// How the spheres are asked about, in a sentence.
-    pub const fn sentence(&self) -> &'static str {
-        match self.way {
-            Way::Certified => {
-                "exact is asked where a sphere can be seen, by a test in binary32 with a proven bound on its error"
-            }
-            Way::Widened => {
-                "the method itself is asked, at the pixels of spheres that are widened by the error it can make"
-            }
-            Way::Everything => "the method itself is asked about every sphere at every pixel",
-        }
-    }
-
-    /// The plan, a line for each thing that a frame may need.
-    pub fn lines(&self) -> Vec<Line> {
-        let mut lines = vec![self.pixels(), self.rays()];
-        lines.extend(self.spheres());
-        lines.extend([self.rows(), self.spans(), self.runs()]);
-        lines.extend([self.questions(), self.moving_away()]);
-        lines.extend(self.coefficients());
-        lines.extend([self.square_roots(), self.rounded_roots()]);
-        lines.extend(self.stages());
-        lines.extend(self.surface());
-        lines
-    }
-
-    fn pixels(&self) -> Line {
-        let all = self.size.area() as u64;
-        let kept = self.counts.kept;
-        let because = if kept == all && all > 0 {
-            "nothing that the picture depends on has changed since the last frame"
-        } else if kept > 0 {
-            "only where a sphere that changed was or is can anything differ"
-        } else {
-            "the camera, the question or most of the picture is new"
-        };
-        Line::new("pixels anew", all - kept, kept, because)
-    }
-
-    fn rays(&self) -> Line {
-        let all = self.size.area() as u64;
-        let Counts { rays, .. } = self.counts;
-        let because = if rays > 0 {
-            "the camera is new"
-        } else {
-            "the camera has not moved, and rays depend on nothing else"
-        };
-        Line::new("rays made", rays, all.saturating_sub(rays), because)
-    }
-
-    fn spheres(&self) -> Vec<Line> {
-        let all = self.spheres;
-        let Counts {
-            behind,
-            outside,
-            hidden,
-            asked,
-            around,
-            kept,
-            ..
-        } = self.counts;
-        let widened = match self.way {
-            Way::Certified => "widened by the rounding of the rays",
-            Way::Widened => "widened by the error that the method can make",
-            Way::Everything => "not looked at",
-        };
-        let elsewhere = if kept > 0 {
-            "; the others are not where anything changed"
-        } else {
-            ""
-        };
-        let certified = self.way == Way::Certified;
-        let left = |n: u64, reason: Cow<'static, str>, what| Line::new(what, all - n, n, reason);
-        vec![
-            Line::new(
-                "spheres",
-                asked,
-                all.saturating_sub(asked),
-                format!(
-                    "{behind} behind the eye, {outside} outside the picture, {hidden} hidden{elsewhere}"
-                ),
-            ),
-            left(
-                behind,
-                if certified {
-                    "z + r, widened by the rounding of the rays, is not above 0".into()
-                } else {
-                    "the method answers for whole lines, those behind the eye too".into()
-                },
-                "  before the eye",
-            ),
-            left(
-                outside,
-                format!("the projection, {widened}, has no pixel").into(),
-                "  in the picture",
-            ),
-            left(
-                hidden,
-                if certified {
-                    "the least root they can have is above all that is seen there".into()
-                } else if self.view.shows_only_what_is_seen() {
-                    "a wrong root of the method may be the least: none may be left out".into()
-                } else {
-                    "the view tells of every sphere on the line".into()
-                },
-                "  not hidden",
-            ),
-            Line::new(
-                "near roots",
-                asked - around.min(asked),
-                around,
-                if certified {
-                    "where the eye is inside, C < 0: near < 0 < far, only far is seen"
-                } else {
-                    "the method gives both roots at once"
-                },
-            ),
-        ]
-    }
-
-    fn rows(&self) -> Line {
-        let all = u64::from(self.size.height) * self.spheres;
-        let Counts { rows, .. } = self.counts;
-        let because = match self.way {
-            Way::Everything => "nothing is left out",
-            _ => "outside its rows no ray meets the sphere: the tangent planes through the eye",
-        };
-        Line::new("rows", rows, all.saturating_sub(rows), because)
-    }
-
-    fn spans(&self) -> Line {
-        let all = self.size.area() as u64 * self.spheres;
-        let Counts { spanned, .. } = self.counts;
-        let because = match self.way {
-            Way::Certified => {
-                "along a row the discriminant is a quadratic in the column; between its roots lie the hits (spheres under 17 columns: in their box)"
-            }
-            Way::Widened => {
-                "between the roots of the row's quadratic, for a radius inflated by the method's proven error"
-            }
-            Way::Everything => "nothing is left out",
-        };
-        Line::new(
-            "columns of rows",
-            spanned,
-            all.saturating_sub(spanned),
-            because,
-        )
-    }
-
-    fn runs(&self) -> Line {
-        let Counts {
-            hidden_runs,
-            tested,
-            solved,
-            ..
-        } = self.counts;
-        let because = match self.way {
-            Way::Certified => {
-                "in runs of 8, to fill a vector; left out are runs where all that is seen is nearer than the sphere can be"
-            }
-            _ => "pixel by pixel",
-        };
-        let kept = if self.way == Way::Certified {
-            tested
-        } else {
-            solved
-        };
-        Line::new("tests", kept, hidden_runs * RUN, because)
-    }
-
-    fn questions(&self) -> Line {
-        let Counts { tested, solved, .. } = self.counts;
-        match self.way {
-            Way::Certified => Line::new(
-                "exact itself",
-                solved,
-                tested,
-                "the sign of D is certain where it exceeds the bound on its error",
-            ),
-            _ => Line::new(
-                "method itself",
-                solved,
-                0,
-                "no test but the method's own: its failures are to be seen",
-            ),
-        }
-    }
-
-    fn moving_away(&self) -> Line {
-        let Counts { spanned, .. } = self.counts;
-        let because = match self.way {
-            Way::Certified => {
-                "outside the sphere and b = o·d not below 0: no root is positive; no span holds such a ray, and a lane beyond one is a miss"
-            }
-            _ => "the class is that of the whole line, so the way out may not be taken",
-        };
-        Line::new("not moving away", spanned, 0, because)
-    }
-
-    fn coefficients(&self) -> [Line; 3] {
-        let Counts {
-            tested,
-            solved,
-            asked,
-            rays,
-            ..
-        } = self.counts;
-        if self.way != Way::Certified {
-            let because = "the method works from the ray and the sphere alone";
-            return ["A", "B", "C"].map(|what| Line::new(what, solved, 0, because));
-        }
-        let spared =
-            |what, kept: u64, because| Line::new(what, kept, tested.saturating_sub(kept), because);
-        let always = |what, because| Line::new(what, tested, 0, because);
-        if self.perspective {
-            [
-                spared(
-                    "A",
-                    rays,
-                    "d·d is the ray's: once a pixel, while the camera rests",
-                ),
-                always(
-                    "B",
-                    "2 o·d is of ray and sphere: it varies from pixel to pixel",
-                ),
-                spared(
-                    "C",
-                    asked,
-                    "o² − r² is the sphere's: all rays start at one point",
-                ),
-            ]
-        } else {
-            [
-                spared(
-                    "A",
-                    rays.min(1),
-                    "d·d is the picture's: all rays have one direction",
-                ),
-                if self.constant_b {
-                    spared(
-                        "B",
-                        asked,
-                        "2 o·d: where o varies d is 0, so the bits are the sphere's",
-                    )
-                } else {
-                    always("B", "2 o·d: o varies along d, by rounding if nothing else")
-                },
-                always("C", "o² − r²: the origin moves from pixel to pixel"),
-            ]
-        }
-    }
-
-    fn square_roots(&self) -> Line {
-        let Counts {
-            roots,
-            tested,
-            solved,
-            ..
-        } = self.counts;
-        let because = match self.way {
-            Way::Certified if self.apart => {
-                "the view shows none, and no two spheres meet: the closest approach −b/A tells which is nearer"
-            }
-            Way::Certified if self.view.shows_only_contours() => {
-                "to tell which is nearer: spheres meet, or are too many to find out"
-            }
-            Way::Certified => "to tell which is nearer, within 2⁻¹³",
-            _ => "the method takes one for each meeting",
-        };
-        let all = if self.way == Way::Certified {
-            tested
-        } else {
-            solved
-        };
-        Line::new("square roots", roots, all.saturating_sub(roots), because)
-    }
-
-    fn rounded_roots(&self) -> Line {
-        let Counts {
-            rounded,
-            solved,
-            tested,
-            ..
-        } = self.counts;
-        if self.way != Way::Certified {
-            let because = "the method gives them with its class";
-            return Line::new("rounded roots", solved, 0, because);
-        }
-        let because = if self.view.shows_roots() {
-            "only roots that are seen are shown"
-        } else {
-            "nothing shows them; near ties are told apart by exact"
-        };
-        let kept = rounded + solved;
-        Line::new("rounded roots", kept, tested.saturating_sub(kept), because)
-    }
-
-    fn stages(&self) -> Vec<Line> {
-        const NAMES: [&str; Stage::ALL.len()] = [
-            "stage 1", "stage 2", "stage 3", "stage 4", "stage 5", "stage 6",
-        ];
-        let stages = &self.counts.stages;
-        if self.method != Method::Exact || self.way == Way::Everything {
-            return Vec::new();
-        }
-        let asked: u64 = stages.iter().sum();
-        let mut settled = 0;
-        let mut lines = Vec::new();
-        for ((what, n), stage) in NAMES.into_iter().zip(stages).zip(Stage::ALL) {
-            let because = if asked == 0 {
-                Cow::from(format!("{stage}: the certified test settled everything"))
-            } else if settled == asked {
-                format!("{stage}: the stages before were sure").into()
-            } else {
-                format!("{stage}: settled {n}").into()
-            };
-            lines.push(Line::new(what, asked - settled, settled, because));
-            settled += n;
-        }
-        lines
-    }
-
-    fn surface(&self) -> [Line; 3] {
-        let Counts { shaded, kept, .. } = self.counts;
-        let pixels = self.size.area() as u64 - kept;
-        let line = |what, n: u64, because| Line::new(what, n, pixels.saturating_sub(n), because);
-        let seen = "only what is seen, once for each pixel";
-        match (self.view, self.light) {
-            (View::Shade, Some(_)) => ["normals", "light", "shades"].map(|w| line(w, shaded, seen)),
-            (View::Shade, None) => [
-                line("normals", 0, "a headlight needs none: cos θ = √(Δ/4Ar²)"),
-                line("light", 0, "it is where the eye is"),
-                line("shades", shaded, seen),
-            ],
-            (View::Normal, _) => [
-                line(
-                    "normals",
-                    self.seen(),
-                    "once for each pixel that is drawn anew",
-                ),
-                line("light", 0, "the view shows none"),
-                line("shades", 0, "the view shows none"),
-            ],
-            _ => ["normals", "light", "shades"].map(|w| line(w, 0, "the view shows none")),
-        }
-    }
-
-    /// How many pixels may show a normal: those that are asked anew.
-    const fn seen(&self) -> u64 {
-        self.size.area() as u64 - self.counts.kept
-    }
 }
-
-/// Pixels in a run of tests.
-const RUN: u64 = super::lanes::SINGLES as u64;
 
 /// More spheres than this are not held against each other: it would cost more than it spares.
 const MOST_PAIRED: usize = 64;
@@ -596,28 +228,4 @@ fn are_apart(bodies: &[Body]) -> bool {
             .iter()
             .enumerate()
             .all(|(i, one)| bodies[i + 1..].iter().all(|other| apart(one, other)))
-}
-
-impl fmt::Display for Plan {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            size,
-            method,
-            view,
-            spheres,
-            ..
-        } = self;
-        let view = view.name();
-        writeln!(f, "{size} pixels, {spheres} spheres, {method}, {view}")?;
-        for line in self.lines() {
-            let Line {
-                what,
-                kept,
-                left_out,
-                because,
-            } = line;
-            writeln!(f, "{what:24} {kept:>10} {left_out:>12}  {because}")?;
-        }
-        Ok(())
-    }
 }

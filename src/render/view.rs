@@ -114,18 +114,18 @@ impl View {
     }
 
     /// Whether nothing is shown but what is seen before the eye, of the sphere that is seen.
-    pub(super) const fn shows_only_what_is_seen(self) -> bool {
+    pub const fn shows_only_what_is_seen(self) -> bool {
         !matches!(self, Self::Class | Self::Delta | Self::Stage)
     }
 
     /// Whether nothing is shown but where which sphere is seen and how lines meet it: no root, and
     /// nothing that depends on one.
-    pub(super) const fn shows_only_contours(self) -> bool {
+    pub const fn shows_only_contours(self) -> bool {
         matches!(self, Self::Class | Self::Outline)
     }
 
     /// Whether the visible roots themselves are shown, or numbers that depend on their last bits.
-    pub(super) const fn shows_roots(self) -> bool {
+    pub const fn shows_roots(self) -> bool {
         matches!(self, Self::Depth)
     }
 

@@ -2,7 +2,7 @@
 
 use ratatui::layout::Rect;
 
-use crate::explain::{self, Line, Question, Reading, StepLook, Subject};
+use crate::explain::{self, Line, PlanLine, Question, Reading, StepLook, Subject};
 use crate::explorer::Explorer;
 use crate::explorer::draw::large;
 use crate::explorer::draw::layout::{self, Layout};
@@ -10,7 +10,6 @@ use crate::explorer::draw::pen::Pen;
 use crate::explorer::draw::theme::Theme;
 use crate::explorer::panel::Panel;
 use crate::explorer::panel::steps::Prediction;
-use crate::render;
 
 impl Explorer {
     /// Shows a panel. Where it takes the picture's place, the same key brings the picture back.
@@ -269,16 +268,15 @@ impl Explorer {
             "This frame: a new picture."
         };
         let title = format!("plan: {} {}", plan.method(), plan.view().name());
-        let mut lines = plan.lines();
-        lines.extend(self.picture.image.plan());
-        lines.push(render::Line::new(
+        let mut lines = explain::plan_lines(plan, &self.picture.image);
+        lines.push(PlanLine::new(
             "cursor's ray",
             self.scene().bodies.len() as u64,
             0,
             "asked about every sphere for the panel; while the cursor moves nothing else is asked",
         ));
         if let Some([sent, all]) = self.sent {
-            lines.push(render::Line::new(
+            lines.push(PlanLine::new(
                 "bytes sent",
                 sent,
                 all.saturating_sub(sent),

@@ -1,17 +1,20 @@
 //! The plan of a frame as lines of text: what was done, what was left out, and why.
 
+mod reasons;
+
 use std::fmt::Write as _;
 
 use super::panel::{Line, Role};
 use super::wrap;
-use crate::render;
+
+pub use reasons::{PlanLine, plan_lines, plan_sentence};
 
 /// Columns of a thing's name, and of each of its two numbers.
 const NAME: usize = 16;
 const NUMBER: usize = 9;
 
 /// The plan for a panel: what this `frame` did, the numbers of all things, then the reasons.
-pub fn plan_panel(frame: &str, plan: &[render::Line], width: usize) -> Vec<Line> {
+pub fn plan_panel(frame: &str, plan: &[PlanLine], width: usize) -> Vec<Line> {
     let spread = width.saturating_sub(NAME + 2 * NUMBER) / 2;
     let [first, second] = [NAME + NUMBER + spread, NAME + 2 * (NUMBER + spread)];
     let mut out: Vec<Line> = wrap(frame, width).into_iter().map(Line::plain).collect();
@@ -47,7 +50,7 @@ pub fn plan_panel(frame: &str, plan: &[render::Line], width: usize) -> Vec<Line>
 }
 
 /// The plan as a table, with the reasons in a column of their own.
-pub fn plan_text(plan: &[render::Line], width: usize) -> String {
+pub fn plan_text(plan: &[PlanLine], width: usize) -> String {
     let wide = 12;
     let margin = NAME + 2 * (wide + 1) + 2;
     let mut out = format!(
@@ -89,8 +92,8 @@ mod tests {
     #[test]
     fn a_panel_of_34_columns_holds_every_line() {
         let plan = [
-            render::Line::new("stage 3", 1, 23_999_999_999_999, "it was sure"),
-            render::Line::new("  before the eye", 9_999_999, 0, "a ".repeat(60)),
+            PlanLine::new("stage 3", 1, 23_999_999_999_999, "it was sure"),
+            PlanLine::new("  before the eye", 9_999_999, 0, "a ".repeat(60)),
         ];
         for line in plan_panel("It rests.", &plan, 34) {
             let width: usize = line.spans.iter().map(|s| s.text.chars().count()).sum();
