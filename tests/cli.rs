@@ -62,6 +62,46 @@ fn help_names_every_command_flag_and_variable() {
     insta::assert_snapshot!("help", String::from_utf8(help.stdout).unwrap());
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_a_failure_and_a_closed_pipe_is_none() {
+    let home = tempfile::tempdir().unwrap();
+    let rows = "ox,oy,oz,dx,dy,dz,cx,cy,cz,r\n0,0,0,0,0,1,0,0,9,1\n";
+    for line in [
+        "--help",
+        "--version",
+        "solve --help",
+        "completions bash",
+        "print trio",
+        "scenes",
+        "tour --list",
+        "plan trio",
+        "worksheet seed",
+        "solve --ray=0,0,0,0,0,1 --sphere=0,0,9,1",
+        "solve --batch -",
+    ] {
+        let words: Vec<_> = line.split(' ').collect();
+        let mut full = rayscope(home.path(), &words);
+        full.stdout(fs::File::options().write(true).open("/dev/full").unwrap());
+        let full = output(full, rows);
+        let said = String::from_utf8(full.stderr).unwrap();
+        assert_eq!(full.status.code(), Some(1), "{line}: {said}");
+        assert!(
+            said.starts_with("rayscope: standard output: "),
+            "{line}: {said}"
+        );
+        assert_eq!(said.lines().count(), 1, "{line}: {said}");
+
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        let mut closed = rayscope(home.path(), &words);
+        closed.stdout(writer);
+        let closed = output(closed, rows);
+        assert_eq!(closed.status.code(), Some(0), "{line}");
+        assert_eq!(String::from_utf8(closed.stderr).unwrap(), "", "{line}");
+    }
+}
+
 #[test]
 fn a_variable_stands_for_its_flag_and_gives_way_to_it() {
     let home = tempfile::tempdir().unwrap();

@@ -4,7 +4,7 @@ use std::io::{self, IsTerminal as _};
 
 use clap::{Args, ValueEnum};
 
-use super::{INVALID, choice};
+use super::{Failure, choice};
 use crate::explain::Glyphs;
 use crate::explorer::{Options, Palette, Reasons};
 use crate::render::{ColorDepth, Style};
@@ -81,9 +81,9 @@ pub(super) fn is_anybody_present() -> bool {
 }
 
 impl Appearance {
-    /// The options with what this terminal has and the person wants; where the terminal has too
-    /// little, an exit status and the reason.
-    pub(super) fn fitted(&self, options: Options) -> Result<Options, (u8, String)> {
+    /// The options with what this terminal has and the person wants; fails where the terminal has
+    /// too little.
+    pub(super) fn fitted(&self, options: Options) -> Result<Options, Failure> {
         let capability = if self.plain {
             let depth_reason = "lines of text have none";
             Capability {
@@ -92,7 +92,7 @@ impl Appearance {
                 ..Capability::of_output()
             }
         } else {
-            let found = Capability::detect().map_err(|unfit| (INVALID, unfit.0.to_owned()))?;
+            let found = Capability::detect().map_err(|unfit| Failure::invalid(unfit.0))?;
             self.color.color.over(found)
         };
         let mut reasons = Reasons {

@@ -1,13 +1,12 @@
 //! `rayscope bench`: error against run time.
 
-use std::process::ExitCode;
-
 use clap::Args;
 
+use super::failure::{DONE, INVALID};
 use super::plan::buffer_of;
 use super::progress::{INTERRUPTED, Progress};
 use super::sweep::{Format, Sweep};
-use super::{INVALID, MISUSED, complain, save, whole, written};
+use super::{Failure, Outcome, save, whole, write_out};
 use crate::lab::bench::{self, MOST_TIMED, Plan, Report, Sample};
 use crate::lab::timing::{Schedule, SelfCheck, SystemClock};
 use crate::lab::{Alone, Family, Machine, frames, plot};
@@ -57,25 +56,17 @@ fn family() -> impl clap::builder::TypedValueParser<Value = &'static Family> {
 }
 
 /// Runs what was asked for and ends with the exit status.
-pub(super) fn run(arguments: &Bench) -> ExitCode {
+pub(super) fn run(arguments: &Bench) -> Outcome {
     if arguments.frames {
         return run_frames(arguments);
     }
     if arguments.brief && arguments.sweep.format != Format::Text {
-        complain("--brief: only the text report lists inputs; expected --format text beside it");
-        return ExitCode::from(MISUSED);
+        return Err(Failure::misused(
+            "--brief: only the text report lists inputs; expected --format text beside it",
+        ));
     }
-    let samples = match samples(arguments) {
-        Ok(samples) => samples,
-        Err(sentence) => {
-            complain(sentence);
-            return ExitCode::from(INVALID);
-        }
-    };
-    let mut progress = match Progress::new("bench", samples.len()) {
-        Ok(progress) => progress,
-        Err(status) => return status,
-    };
+    let samples = samples(arguments)?;
+    let mut progress = Progress::new("bench", samples.len())?;
     // Where that can't be found out, the other self-checks have to do.
     let alone = Alone::take();
     let mut report = bench::run(
@@ -96,18 +87,19 @@ pub(super) fn run(arguments: &Bench) -> ExitCode {
     let drawn = save(arguments.sweep.plot.as_deref(), || {
         plot::work_precision(&report, &Machine::detect())
     });
-    let written = written(in_format(&report, arguments));
-    if progress.interrupted() {
-        ExitCode::from(INTERRUPTED)
-    } else if arguments.strict && !report.times_trusted() || drawn.is_err() {
-        ExitCode::from(INVALID)
+    write_out(&in_format(&report, arguments).map_err(Failure::invalid)?)?;
+    drawn?;
+    Ok(if progress.interrupted() {
+        INTERRUPTED
+    } else if arguments.strict && !report.times_trusted() {
+        INVALID
     } else {
-        written
-    }
+        DONE
+    })
 }
 
 /// Measures whole frames instead of single rays.
-fn run_frames(arguments: &Bench) -> ExitCode {
+fn run_frames(arguments: &Bench) -> Outcome {
     let mut schedule = frames::Schedule::new(arguments.sweep.quick, arguments.sweep.seed);
     if let Some(methods) = arguments.sweep.named() {
         schedule.methods = methods.into();
@@ -116,10 +108,7 @@ fn run_frames(arguments: &Bench) -> ExitCode {
         schedule.counts = arguments.counts.iter().map(|&n| n as usize).collect();
         schedule.counts.sort_unstable();
     }
-    let mut progress = match Progress::new("bench", schedule.rows()) {
-        Ok(progress) => progress,
-        Err(status) => return status,
-    };
+    let mut progress = Progress::new("bench", schedule.rows())?;
     // No explorer of this host should time its picture meanwhile.
     let _alone = Alone::take();
     let report = frames::run(
@@ -136,12 +125,12 @@ fn run_frames(arguments: &Bench) -> ExitCode {
         Format::Csv => frames::csv(&report).map_err(|e| format!("CSV: {e}")),
         Format::Json => frames::json(&report, &machine).map_err(|e| format!("JSON: {e}")),
     };
-    let written = written(text);
-    if progress.interrupted() {
-        ExitCode::from(INTERRUPTED)
+    write_out(&text.map_err(Failure::invalid)?)?;
+    Ok(if progress.interrupted() {
+        INTERRUPTED
     } else {
-        written
-    }
+        DONE
+    })
 }
 
 /// A terminal of 256 colours that nobody looks at.
@@ -165,11 +154,11 @@ fn plan(arguments: &Bench) -> Plan<'_> {
     }
 }
 
-fn samples(arguments: &Bench) -> Result<Vec<Sample>, String> {
+fn samples(arguments: &Bench) -> Result<Vec<Sample>, Failure> {
     let usual = if arguments.sweep.quick { 2048 } else { 16_384 };
     let rays = arguments.rays.map_or(usual, |rays| rays as usize);
     if let Some(name) = &arguments.scene {
-        let (scene, _) = Scene::open(name).map_err(|e| e.to_string())?;
+        let (scene, _) = Scene::open(name).map_err(Failure::invalid)?;
         let (size, shape) = fit(&scene, Style::Half, 80, 24, CELL_ASPECT);
         let own = Rays::new(&scene.camera, size, shape);
         let most = rays.max(MOST_TIMED);

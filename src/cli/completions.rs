@@ -1,11 +1,9 @@
 //! `rayscope completions`: a script that teaches a shell the commands and flags.
 
-use std::process::ExitCode;
-
 use clap::{Args, CommandFactory};
 use clap_complete::{Shell, generate};
 
-use super::{Arguments, write_out};
+use super::{Arguments, Outcome, write_out};
 
 /// Write a script that completes commands and flags in a shell
 ///
@@ -18,7 +16,7 @@ pub(super) struct Completions {
 }
 
 /// Writes the script.
-pub(super) fn run(arguments: &Completions) -> ExitCode {
+pub(super) fn run(arguments: &Completions) -> Outcome {
     let mut script = Vec::new();
     let mut command = Arguments::command();
     generate(arguments.shell, &mut command, "rayscope", &mut script);

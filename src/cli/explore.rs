@@ -4,13 +4,12 @@ use std::env;
 use std::io;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 use clap::Args;
 
 use super::appearance::{Appearance, default_style, is_anybody_present};
 use super::place::Place;
-use super::{INVALID, MISUSED, aspect, choice, complain};
+use super::{Failure, Outcome, aspect, choice, complain};
 use crate::explorer::{Explorer, Opening, Options};
 use crate::method::Method;
 use crate::render::{Style, View};
@@ -48,28 +47,21 @@ pub(super) struct Explore {
 }
 
 /// Opens the explorer and ends with the exit status that the person left it with.
-pub(super) fn run(arguments: &Explore) -> ExitCode {
-    match opened(arguments, |options| arguments.appearance.fitted(options)) {
-        Ok((mut explorer, source)) => {
-            if let Some(folder) = state_folder() {
-                explorer.keep_in(&folder, &source);
-            }
-            converse(&mut explorer, &arguments.appearance)
-        }
-        Err((status, sentence)) => {
-            complain(sentence);
-            status.into()
-        }
+pub(super) fn run(arguments: &Explore) -> Outcome {
+    let appearance = &arguments.appearance;
+    let (mut explorer, source) = opened(arguments, |options| appearance.fitted(options))?;
+    if let Some(folder) = state_folder() {
+        explorer.keep_in(&folder, &source);
     }
+    converse(&mut explorer, appearance)
 }
 
-/// The explorer as it is asked for, its options made to `fit` the terminal; else an exit status and
-/// the reason.
+/// The explorer as it is asked for, its options made to `fit` the terminal.
 pub(super) fn opened(
     arguments: &Explore,
-    fit: impl FnOnce(Options) -> Result<Options, (u8, String)>,
-) -> Result<(Explorer, Source), (u8, String)> {
-    let (scene, source) = Scene::open(&arguments.scene).map_err(|e| (INVALID, e.to_string()))?;
+    fit: impl FnOnce(Options) -> Result<Options, Failure>,
+) -> Result<(Explorer, Source), Failure> {
+    let (scene, source) = Scene::open(&arguments.scene).map_err(Failure::invalid)?;
     let defaults = Options::default();
     let options = fit(Options {
         method: arguments.method,
@@ -88,43 +80,36 @@ pub(super) fn opened(
 }
 
 /// An explorer at the place that is asked for, or what is wrong with that place.
-pub(super) fn set_out(
-    opening: &Opening,
-    new: impl Fn() -> Explorer,
-) -> Result<Explorer, (u8, String)> {
+pub(super) fn set_out(opening: &Opening, new: impl Fn() -> Explorer) -> Result<Explorer, Failure> {
     let at_place = || {
         let mut explorer = new();
-        explorer.set_out(opening).map_err(|e| (MISUSED, e))?;
+        explorer.set_out(opening).map_err(Failure::misused)?;
         Ok(explorer)
     };
     // Only the picture tells whether there is such a step. A link from a screen of another size may
     // come to a pixel that lacks it: then the explorer says so itself.
     if opening.step.is_some() && opening.size.is_none() {
         let rehearsed = at_place()?.rehearse();
-        rehearsed.map_err(|e| (MISUSED, format!("--{e}")))?;
+        rehearsed.map_err(|e| Failure::misused(format_args!("--{e}")))?;
     }
     at_place()
 }
 
 /// Runs the explorer in the terminal; however that ends, unsaved work is kept.
-pub(super) fn converse(explorer: &mut Explorer, appearance: &Appearance) -> ExitCode {
+pub(super) fn converse(explorer: &mut Explorer, appearance: &Appearance) -> Outcome {
     if appearance.plain {
         let ended = terminal::converse(explorer, is_anybody_present());
         keep(explorer.finish());
-        return ended.map_or_else(|e| failed(&e), ExitCode::from);
+        return ended.map_err(|e| failed(&e));
     }
-    let mut session = match Session::enter() {
-        Ok(session) => session,
-        Err(e) => return failed(&e),
-    };
+    let mut session = Session::enter().map_err(|e| failed(&e))?;
     // After a panic only the scene is looked at, which is whole between any two changes.
     let ended = panic::catch_unwind(AssertUnwindSafe(|| terminal::run(explorer, &mut session)));
     let kept = explorer.finish();
     drop(session);
     keep(kept);
     match ended {
-        Ok(Ok(status)) => ExitCode::from(status),
-        Ok(Err(e)) => failed(&e),
+        Ok(ended) => ended.map_err(|e| failed(&e)),
         Err(panicked) => panic::resume_unwind(panicked),
     }
 }
@@ -141,9 +126,8 @@ fn keep(kept: Result<Option<PathBuf>, String>) {
     }
 }
 
-fn failed(error: &io::Error) -> ExitCode {
-    complain(format_args!("the terminal failed: {error}"));
-    ExitCode::from(INVALID)
+fn failed(error: &io::Error) -> Failure {
+    Failure::invalid(format_args!("the terminal failed: {error}"))
 }
 
 /// Where programs of this person keep what should outlive them, as the XDG base directories have it.

@@ -3,14 +3,14 @@
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 use csv::StringRecord;
 use glam::Vec3;
 
+use super::failure::{DONE, INVALID};
 use super::solve::number;
-use super::{INVALID, complain, shown, write_out};
+use super::{Failure, Outcome, complain, shown, write_out};
 use crate::geometry::{Ray, Sphere};
 use crate::lab::Problem;
 use crate::lab::grade::{self, Claim};
@@ -35,34 +35,24 @@ enum Format {
 }
 
 /// Grades the file; exit status 1 if some row could not be graded.
-pub(super) fn run(arguments: &Grade) -> ExitCode {
+pub(super) fn run(arguments: &Grade) -> Outcome {
     let shown = shown(&arguments.file);
-    let file = match rows_of(&arguments.file) {
-        Ok(file) => file,
-        Err(reason) => {
-            complain(format_args!("{shown}: {reason}"));
-            return ExitCode::from(INVALID);
-        }
-    };
+    let file = rows_of(&arguments.file)
+        .map_err(|reason| Failure::invalid(format_args!("{shown}: {reason}")))?;
     for refusal in &file.refused {
         complain(format_args!("{shown}: {refusal}"));
     }
     let graded = grade::grade(&file.problems, &file.claims);
     let text = match arguments.format {
         Format::Text => Ok(grade::table(&graded)),
-        Format::Json => grade::json(&graded),
+        Format::Json => grade::json(&graded).map_err(|e| format!("JSON: {e}")),
     };
-    match text {
-        Ok(text) if file.refused.is_empty() => write_out(&text),
-        Ok(text) => {
-            write_out(&text);
-            ExitCode::from(INVALID)
-        }
-        Err(error) => {
-            complain(format_args!("JSON: {error}"));
-            ExitCode::from(INVALID)
-        }
-    }
+    write_out(&text.map_err(Failure::invalid)?)?;
+    Ok(if file.refused.is_empty() {
+        DONE
+    } else {
+        INVALID
+    })
 }
 
 const COLUMNS: [&str; 13] = [

@@ -4,7 +4,9 @@ mod appearance;
 mod bench;
 mod completions;
 mod explore;
+mod failure;
 mod grade;
+mod output;
 mod place;
 mod plan;
 mod print;
@@ -18,7 +20,6 @@ mod variables;
 mod worksheet;
 
 use std::fmt;
-use std::io::{ErrorKind, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
@@ -26,6 +27,8 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::method::read;
+use failure::{DONE, Failure, Outcome};
+use output::{complain, save, unwritable, write_out};
 
 /// A terminal explorer for ray–sphere intersection.
 #[derive(Debug, Parser)]
@@ -54,44 +57,46 @@ enum Command {
 
 /// Runs the program with the arguments of this process.
 pub fn main() -> ExitCode {
-    let arguments = arguments();
-    match arguments.command {
+    let outcome = arguments().and_then(|arguments| arguments.map_or(Ok(DONE), |a| run(&a)));
+    ExitCode::from(outcome.unwrap_or_else(|Failure { status, sentence }| {
+        complain(sentence);
+        status
+    }))
+}
+
+fn run(arguments: &Arguments) -> Outcome {
+    match &arguments.command {
         None => explore::run(&arguments.explore),
-        Some(Command::Completions(arguments)) => completions::run(&arguments),
-        Some(Command::Bench(arguments)) => bench::run(&arguments),
-        Some(Command::Grade(arguments)) => grade::run(&arguments),
-        Some(Command::Plan(arguments)) => plan::run(&arguments),
-        Some(Command::Print(arguments)) => print::run(&arguments),
-        Some(Command::Scenes(arguments)) => scenes::run(&arguments),
-        Some(Command::Solve(arguments)) => solve::run(&arguments),
-        Some(Command::Stress(arguments)) => stress::run(&arguments),
-        Some(Command::Tour(arguments)) => tour::run(&arguments),
-        Some(Command::Worksheet(arguments)) => worksheet::run(&arguments),
+        Some(Command::Completions(arguments)) => completions::run(arguments),
+        Some(Command::Bench(arguments)) => bench::run(arguments),
+        Some(Command::Grade(arguments)) => grade::run(arguments),
+        Some(Command::Plan(arguments)) => plan::run(arguments),
+        Some(Command::Print(arguments)) => print::run(arguments),
+        Some(Command::Scenes(arguments)) => scenes::run(arguments),
+        Some(Command::Solve(arguments)) => solve::run(arguments),
+        Some(Command::Stress(arguments)) => stress::run(arguments),
+        Some(Command::Tour(arguments)) => tour::run(arguments),
+        Some(Command::Worksheet(arguments)) => worksheet::run(arguments),
     }
 }
 
-/// The arguments of this process; ends it where they are wrong, or help was asked for.
-fn arguments() -> Arguments {
+/// The arguments of this process; none if they asked for help, which is written then.
+fn arguments() -> Result<Option<Arguments>, Failure> {
     let mut command = variables::without_empty(Arguments::command());
     let matches = command.try_get_matches_from_mut(std::env::args_os());
     let arguments = matches.and_then(|matches| {
         let arguments = Arguments::from_arg_matches(&matches);
         arguments.map_err(|error| error.format(&mut command))
     });
-    arguments.unwrap_or_else(|error| match variables::at_fault(&error, &command) {
-        Some(sentence) => {
-            complain(sentence);
-            std::process::exit(MISUSED.into())
-        }
-        None => error.exit(),
-    })
+    match arguments {
+        Ok(arguments) => Ok(Some(arguments)),
+        Err(error) => match variables::at_fault(&error, &command) {
+            Some(sentence) => Err(Failure::misused(sentence)),
+            None if error.use_stderr() => error.exit(),
+            None => error.print().or_else(|e| unwritable(&e)).map(|()| None),
+        },
+    }
 }
-
-/// The exit status where some input was invalid.
-const INVALID: u8 = 1;
-
-/// The exit status where the program was called wrongly.
-const MISUSED: u8 = 2;
 
 /// Reads one of several values by its name.
 fn choice<T: Copy + Send + Sync + 'static>(
@@ -141,40 +146,6 @@ fn finite(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "expected a finite number, such as 7.5".into())
 }
 
-/// Writes to standard output. Whoever closes it early has seen enough.
-fn write_out(text: &str) -> ExitCode {
-    let mut out = std::io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) if error.kind() == ErrorKind::BrokenPipe => ExitCode::SUCCESS,
-        Err(error) => {
-            complain(format_args!("standard output: {error}"));
-            ExitCode::from(INVALID)
-        }
-    }
-}
-
-/// Writes a report to standard output, or says why there is none.
-fn written(report: Result<String, String>) -> ExitCode {
-    match report {
-        Ok(text) => write_out(&text),
-        Err(sentence) => {
-            complain(sentence);
-            ExitCode::from(INVALID)
-        }
-    }
-}
-
-/// Writes a file if one is asked for; says why if that fails.
-fn save(path: Option<&Path>, contents: impl FnOnce() -> String) -> Result<(), ()> {
-    let Some(path) = path else {
-        return Ok(());
-    };
-    std::fs::write(path, contents()).map_err(|error| {
-        complain(format_args!("cannot write {}: {error}", path.display()));
-    })
-}
-
 /// What an input file is called in a sentence; `-` is standard input.
 fn shown(path: &Path) -> String {
     if path == Path::new("-") {
@@ -182,9 +153,4 @@ fn shown(path: &Path) -> String {
     } else {
         path.display().to_string()
     }
-}
-
-/// Says a sentence on standard error. If nobody can read it, nobody is missing it.
-fn complain(sentence: impl fmt::Display) {
-    let _ = writeln!(std::io::stderr(), "rayscope: {sentence}");
 }

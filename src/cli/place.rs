@@ -74,14 +74,14 @@ mod tests {
     use clap::Parser;
     use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 
-    use super::super::{Arguments, Command, explore, tour};
+    use super::super::{Arguments, Command, Failure, explore, tour};
     use crate::explain::{Digits, Glyphs, lines, plain_text};
     use crate::explorer::{Explorer, Options, command_line};
 
     /// Opens what a command line asks for, on a screen of 80 by 24.
-    fn open(words: &[String]) -> Result<Explorer, (u8, String)> {
+    fn open(words: &[String]) -> Result<Explorer, Failure> {
         let all = [&["rayscope".to_owned()], words].concat();
-        let arguments = Arguments::try_parse_from(all).map_err(|e| (2, e.to_string()))?;
+        let arguments = Arguments::try_parse_from(all).map_err(Failure::misused)?;
         let mut explorer = match arguments.command {
             None => explore::opened(&arguments.explore, Ok)?.0,
             Some(Command::Tour(arguments)) => tour::opened(&arguments, Ok)?,
@@ -93,7 +93,7 @@ mod tests {
 
     fn opened(line: &str) -> Explorer {
         let words: Vec<_> = line.split_whitespace().map(str::to_owned).collect();
-        open(&words).unwrap_or_else(|(_, sentence)| panic!("{line}: {sentence}"))
+        open(&words).unwrap_or_else(|e| panic!("{line}: {}", e.sentence))
     }
 
     fn press(explorer: &mut Explorer, keys: &str) {
@@ -146,7 +146,7 @@ mod tests {
             let mut before = opened(line);
             press(&mut before, keys);
             let words = before.link().unwrap();
-            let after = open(&words).unwrap_or_else(|(_, e)| panic!("{words:?}: {e}"));
+            let after = open(&words).unwrap_or_else(|e| panic!("{words:?}: {}", e.sentence));
             assert_eq!(seen(&after), seen(&before), "{}", command_line(&words));
             assert_eq!(after.link(), Ok(words));
             assert_eq!(after.cursor(), before.cursor());
@@ -220,7 +220,7 @@ mod tests {
             ),
             ("tour 1 --page 9", "--page 9: expected a page from 1 to 4"),
         ] {
-            assert_eq!(said(line), (2, sentence.to_owned()));
+            assert_eq!(said(line), Failure::misused(sentence));
         }
         for (line, part) in [
             ("seed --size 9x9", "--cursor"),
@@ -228,7 +228,7 @@ mod tests {
             ("seed --t 0x1.8q", "0x1.8q"),
             ("trio --set size=1", "expected one of center.x, center.y"),
         ] {
-            let (status, sentence) = said(line);
+            let Failure { status, sentence } = said(line);
             assert_eq!(status, 2);
             assert!(sentence.contains(part), "{sentence}");
         }

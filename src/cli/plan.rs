@@ -1,7 +1,6 @@
 //! `rayscope plan`: what a frame of a scene needs, what is left out, and why.
 
 use std::fmt::Write as _;
-use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 use ratatui::buffer::Buffer;
@@ -10,7 +9,7 @@ use ratatui::style::{Color, Style as CellStyle};
 use serde::Serialize;
 
 use super::print::{fit_in, size, view_in};
-use super::{INVALID, MISUSED, aspect, choice, complain, from_one, write_out};
+use super::{Failure, Outcome, aspect, choice, from_one, write_out};
 use crate::explain::{self, PlanLine};
 use crate::explorer::usual_step;
 use crate::method::Method;
@@ -83,32 +82,28 @@ struct Entry {
 }
 
 /// Works out the plans, writes them and ends with the exit status.
-pub(super) fn run(arguments: &Plan) -> ExitCode {
-    let written = report(arguments).and_then(|report| match arguments.format {
+pub(super) fn run(arguments: &Plan) -> Outcome {
+    let report = report(arguments)?;
+    let text = match arguments.format {
         Format::Text => Ok(Capability::of_output().glyphs.spell(&text(&report))),
         Format::Json => serde_json::to_string_pretty(&report)
             .map(|json| json + "\n")
-            .map_err(|e| (INVALID, format!("JSON: {e}"))),
-        Format::Csv => csv(&report).map_err(|e| (INVALID, format!("CSV: {e}"))),
-    });
-    match written {
-        Ok(text) => write_out(&text),
-        Err((status, sentence)) => {
-            complain(sentence);
-            ExitCode::from(status)
-        }
-    }
+            .map_err(|e| format!("JSON: {e}")),
+        Format::Csv => csv(&report).map_err(|e| format!("CSV: {e}")),
+    };
+    write_out(&text.map_err(Failure::invalid)?)
 }
 
-fn report(arguments: &Plan) -> Result<Report, (u8, String)> {
-    let (mut scene, _) = Scene::open(&arguments.scene).map_err(|e| (INVALID, e.to_string()))?;
+fn report(arguments: &Plan) -> Result<Report, Failure> {
+    let (mut scene, _) = Scene::open(&arguments.scene).map_err(Failure::invalid)?;
     let (style, spheres) = (arguments.style, scene.bodies.len());
     if arguments.sphere == 0 || arguments.sphere > spheres.max(1) {
         let expected = format!("a sphere of the scene, from 1 to {}", spheres.max(1));
         let found = arguments.sphere;
-        return Err((MISUSED, format!("--sphere {found}: expected {expected}")));
+        let sentence = format!("--sphere {found}: expected {expected}");
+        return Err(Failure::misused(sentence));
     }
-    let view = view_in(style, arguments.view).map_err(|e| (MISUSED, e))?;
+    let view = view_in(style, arguments.view).map_err(Failure::misused)?;
     let (size, shape) = fit_in(&scene, style, ROOM, arguments.size, arguments.aspect);
     let mut screen = Screen::new(arguments, view, size, shape);
     let mut frames = vec![screen.show(&scene, "whole", "the whole picture, on an empty screen")];

@@ -2,13 +2,12 @@
 
 use std::fmt::Write as _;
 use std::io::{self, IsTerminal as _};
-use std::process::ExitCode;
 
 use clap::Args;
 use crossterm::terminal::window_size;
 
 use super::appearance::{Color, default_style};
-use super::{INVALID, MISUSED, aspect, choice, complain, write_out};
+use super::{Failure, Outcome, aspect, choice, write_out};
 use crate::explain::{self, Digits, Drawn, Glyphs, Reading};
 use crate::method::Method;
 use crate::render::{
@@ -56,26 +55,20 @@ pub(super) struct Print {
 }
 
 /// Draws the scene, or reads one pixel of it, and ends with the exit status.
-pub(super) fn run(arguments: &Print) -> ExitCode {
-    match text(arguments) {
-        Ok(text) => write_out(&text),
-        Err((status, sentence)) => {
-            complain(sentence);
-            ExitCode::from(status)
-        }
-    }
+pub(super) fn run(arguments: &Print) -> Outcome {
+    write_out(&text(arguments)?)
 }
 
-/// What is asked for, or an exit status and the reason.
-fn text(arguments: &Print) -> Result<String, (u8, String)> {
-    let (scene, _) = Scene::open(&arguments.scene).map_err(|e| (INVALID, e.to_string()))?;
+/// What is asked for.
+fn text(arguments: &Print) -> Result<String, Failure> {
+    let (scene, _) = Scene::open(&arguments.scene).map_err(Failure::invalid)?;
     let capability = arguments.color.color.over(Capability::of_output());
     let style = arguments
         .style
         .unwrap_or_else(|| default_style(capability.depth, capability.glyphs));
     let (size, shape) = fit_as_asked(&scene, style, arguments);
     let rays = Rays::new(&scene.camera, size, shape);
-    let view = view_in(style, arguments.view).map_err(|e| (MISUSED, e))?;
+    let view = view_in(style, arguments.view).map_err(Failure::misused)?;
     match arguments.pixel {
         None => {
             let depth = capability.depth;
@@ -102,7 +95,8 @@ fn text(arguments: &Print) -> Result<String, (u8, String)> {
         Some((x, y)) => {
             let [right, bottom] = [size.width, size.height].map(|n| n.saturating_sub(1));
             let expected = format!("a pixel of the picture, from 0,0 to {right},{bottom}");
-            Err((MISUSED, format!("--pixel {x},{y}: expected {expected}")))
+            let sentence = format!("--pixel {x},{y}: expected {expected}");
+            Err(Failure::misused(sentence))
         }
     }
 }

@@ -1,11 +1,10 @@
 //! How a long run tells how far it is, and how Ctrl-C ends it.
 
 use std::io::{IsTerminal as _, Write as _};
-use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::{INVALID, complain};
+use super::Failure;
 
 /// 128 + SIGINT.
 pub(super) const INTERRUPTED: u8 = 130;
@@ -20,12 +19,9 @@ pub(super) struct Progress {
 }
 
 impl Progress {
-    /// A run of `all` parts that is about to begin; else says why not, and with which exit status.
-    pub fn new(what: &'static str, all: usize) -> Result<Self, ExitCode> {
-        Self::heeding(what, all).map_err(|error| {
-            complain(format_args!("signals: {error}"));
-            ExitCode::from(INVALID)
-        })
+    /// A run of `all` parts that is about to begin.
+    pub fn new(what: &'static str, all: usize) -> Result<Self, Failure> {
+        Self::heeding(what, all).map_err(|e| Failure::invalid(format_args!("signals: {e}")))
     }
 
     fn heeding(what: &'static str, all: usize) -> std::io::Result<Self> {

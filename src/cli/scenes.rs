@@ -1,10 +1,8 @@
 //! `rayscope scenes`: what scenes come with the program, and each as a scene file.
 
-use std::process::ExitCode;
-
 use clap::Args;
 
-use super::{choice, write_out};
+use super::{Outcome, choice, write_out};
 use crate::scene::Builtin;
 
 /// Lists the built-in scenes, or prints one as a scene file
@@ -15,7 +13,7 @@ pub(super) struct Scenes {
     name: Option<Builtin>,
 }
 
-pub(super) fn run(arguments: &Scenes) -> ExitCode {
+pub(super) fn run(arguments: &Scenes) -> Outcome {
     match arguments.name {
         Some(builtin) => write_out(&builtin.scene().to_toml()),
         None => write_out(&list()),

@@ -1,13 +1,12 @@
 //! `rayscope stress`: the stability sweeps.
 
-use std::process::ExitCode;
-
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
+use super::failure::{DONE, INVALID};
 use super::progress::{INTERRUPTED, Progress};
 use super::sweep::{Format, Sweep};
-use super::{INVALID, save, whole, written};
+use super::{Failure, Outcome, save, whole, write_out};
 use crate::lab::stress::{self, Plan, Report};
 use crate::lab::{Dial, plot};
 
@@ -32,23 +31,22 @@ fn dial() -> impl TypedValueParser<Value = &'static Dial> {
 }
 
 /// Runs what was asked for; the exit status says whether `exact` and `double` kept their promises.
-pub(super) fn run(arguments: &Stress) -> ExitCode {
+pub(super) fn run(arguments: &Stress) -> Outcome {
     let plan = plan(arguments);
-    let mut progress = match Progress::new("stress", plan.dials.len() + 1) {
-        Ok(progress) => progress,
-        Err(status) => return status,
-    };
+    let mut progress = Progress::new("stress", plan.dials.len() + 1)?;
     let report = stress::run(&plan, |number, name| progress.go_on(number, name));
     progress.clear();
     let drawn = save(arguments.sweep.plot.as_deref(), || plot::stability(&report));
-    let written = written(in_format(&report, arguments.sweep.format));
-    if progress.interrupted() {
-        ExitCode::from(INTERRUPTED)
-    } else if report.promises_kept() && drawn.is_ok() {
-        written
+    let text = in_format(&report, arguments.sweep.format).map_err(Failure::invalid)?;
+    write_out(&text)?;
+    drawn?;
+    Ok(if progress.interrupted() {
+        INTERRUPTED
+    } else if report.promises_kept() {
+        DONE
     } else {
-        ExitCode::from(INVALID)
-    }
+        INVALID
+    })
 }
 
 fn plan(arguments: &Stress) -> Plan {

@@ -2,14 +2,13 @@
 
 use std::fmt::Write as _;
 use std::path::Path;
-use std::process::ExitCode;
 use std::sync::Arc;
 
 use clap::Args;
 
 use super::appearance::Appearance;
 use super::place::Place;
-use super::{INVALID, MISUSED, aspect, choice, complain, explore, from_one, written};
+use super::{Failure, Outcome, aspect, choice, explore, from_one, write_out};
 use crate::explorer::tour::{self, Chapter};
 use crate::explorer::{Explorer, Opening, Options};
 use crate::method::Method;
@@ -55,30 +54,25 @@ pub(super) struct Tour {
 }
 
 /// Opens the tour, or lists its chapters.
-pub(super) fn run(arguments: &Tour) -> ExitCode {
+pub(super) fn run(arguments: &Tour) -> Outcome {
     if arguments.list {
-        return written(chapters(&arguments.chapter).map(|(chapters, _)| list(&chapters)));
+        return write_out(&list(&chapters(&arguments.chapter)?.0));
     }
     let appearance = &arguments.appearance;
-    match opened(arguments, |options| appearance.fitted(options)) {
-        Ok(mut explorer) => explore::converse(&mut explorer, appearance),
-        Err((status, sentence)) => {
-            complain(sentence);
-            status.into()
-        }
-    }
+    let mut explorer = opened(arguments, |options| appearance.fitted(options))?;
+    explore::converse(&mut explorer, appearance)
 }
 
-/// The explorer on the page that is asked for; else an exit status and the reason.
+/// The explorer on the page that is asked for.
 pub(super) fn opened(
     arguments: &Tour,
-    fit: impl FnOnce(Options) -> Result<Options, (u8, String)>,
-) -> Result<Explorer, (u8, String)> {
-    let (chapters, at) = chapters(&arguments.chapter).map_err(|e| (INVALID, e))?;
+    fit: impl FnOnce(Options) -> Result<Options, Failure>,
+) -> Result<Explorer, Failure> {
+    let (chapters, at) = chapters(&arguments.chapter)?;
     let (page, pages) = (arguments.page, chapters[at].pages.len());
     if !(1..=pages).contains(&page) {
         let sentence = format!("--page {page}: expected a page from 1 to {pages}");
-        return Err((MISUSED, sentence));
+        return Err(Failure::misused(sentence));
     }
     let options = fit(Options {
         aspect: arguments.aspect,
@@ -99,21 +93,21 @@ pub(super) fn opened(
 }
 
 /// All chapters, and the place of the one that is asked for.
-fn chapters(word: &str) -> Result<(Arc<[Chapter]>, usize), String> {
+fn chapters(word: &str) -> Result<(Arc<[Chapter]>, usize), Failure> {
     let chapters = tour::builtin();
     if let Some(at) = tour::find(&chapters, word) {
         return Ok((chapters, at));
     }
     let path = Path::new(word);
     if path.exists() {
-        return Ok((tour::load(path).map_err(|e| e.to_string())?, 0));
+        return Ok((tour::load(path).map_err(Failure::invalid)?, 0));
     }
     let names: Vec<_> = chapters.iter().map(|c| c.name.as_str()).collect();
-    Err(format!(
+    Err(Failure::invalid(format_args!(
         "{word}: found no such chapter and no such file, expected 1 to {}, or one of {}",
         names.len(),
         names.join(", ")
-    ))
+    )))
 }
 
 fn list(chapters: &[Chapter]) -> String {

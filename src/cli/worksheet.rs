@@ -1,11 +1,9 @@
 //! `rayscope worksheet`: exercises about pixels of a scene, for pencil and paper.
 
-use std::process::ExitCode;
-
 use clap::{Args, ValueEnum};
 
 use super::print::size;
-use super::{seed, whole, written};
+use super::{Failure, Outcome, seed, whole, write_out};
 use crate::explain::worksheet::{self, Part};
 use crate::render::{CELL_ASPECT, Style, fit};
 use crate::scene::{PixelShape, Rays, Scene, Size};
@@ -61,9 +59,10 @@ enum Only {
 const SIZE: Size = Size::new(40, 40);
 
 /// Writes the worksheet, or why there is none.
-pub(super) fn run(arguments: &Worksheet) -> ExitCode {
+pub(super) fn run(arguments: &Worksheet) -> Outcome {
     let glyphs = Capability::of_output().glyphs;
-    written(text(arguments).map(|text| glyphs.spell(&text)))
+    let text = text(arguments).map_err(Failure::invalid)?;
+    write_out(&glyphs.spell(&text))
 }
 
 fn text(arguments: &Worksheet) -> Result<String, String> {

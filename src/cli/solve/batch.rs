@@ -2,14 +2,13 @@
 
 use std::borrow::Cow;
 use std::cell::RefCell;
-use std::fmt;
 use std::fs::File;
 use std::io::{self, BufReader, BufWriter, Read, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use glam::Vec3;
 
-use super::super::{complain, shown};
+use super::super::{Failure, complain, shown, unwritable};
 use super::input::number;
 use super::rows::{LONGEST, Row, Rows, push_field};
 use crate::geometry::{Ray, Sphere};
@@ -25,53 +24,35 @@ const OUTPUTS: [&str; 7] = ["class", "near", "far", "a", "b", "c", "discriminant
 /// Bytes read or written at once.
 const BUFFER: usize = 1 << 16;
 
-/// How a batch ended.
+/// What the rows of a batch were.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Outcome {
-    /// Every row was answered.
-    AllValid,
+pub(super) enum Validity {
+    All,
     /// Some rows are `invalid`; each was explained on standard error.
-    SomeInvalid,
+    Some,
 }
 
 /// Why a batch could not go on.
-#[derive(Debug)]
-pub(super) enum Error {
-    /// Whoever read the output has enough of it.
-    Closed,
-    /// The file cannot be read.
-    Read(PathBuf, io::Error),
-    /// The output cannot be written.
-    Write(io::Error),
-    /// There is not even a header.
-    Empty(PathBuf),
-    /// The first line is not a header that will do.
-    Header(PathBuf, String),
-}
-
-impl fmt::Display for Error {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Closed => f.write_str("the output was closed"),
-            Self::Read(path, error) => write!(f, "cannot read {}: {error}", shown(path)),
-            Self::Write(error) => write!(f, "cannot write the answers: {error}"),
-            Self::Empty(path) => {
-                let (path, columns) = (shown(path), INPUTS.join(","));
-                write!(f, "{path} is empty: expected a header with {columns}")
-            }
-            Self::Header(path, reason) => write!(f, "{}: {reason}", shown(path)),
-        }
-    }
+enum Stop {
+    Failed(Failure),
+    Unwritten(io::Error),
 }
 
 /// Answers every row of the file, or of standard input for `-`, on standard output.
-pub(super) fn run(path: &Path, method: Method) -> Result<Outcome, Error> {
+pub(super) fn run(path: &Path, method: Method) -> Result<Validity, Failure> {
     let input: Box<dyn Read> = if path == Path::new("-") {
         Box::new(io::stdin().lock())
     } else {
-        Box::new(File::open(path).map_err(|e| Error::Read(path.to_owned(), e))?)
+        Box::new(File::open(path).map_err(|e| unreadable(path, &e))?)
     };
-    answer(path, input, io::stdout().lock(), method)
+    answer(path, input, io::stdout().lock(), method).or_else(|stop| match stop {
+        Stop::Failed(failure) => Err(failure),
+        Stop::Unwritten(error) => unwritable(&error).map(|()| Validity::All),
+    })
+}
+
+fn unreadable(path: &Path, error: &io::Error) -> Failure {
+    Failure::invalid(format_args!("cannot read {}: {error}", shown(path)))
 }
 
 /// Input that lets go of what has been answered before it waits for more, so that a program at
@@ -98,7 +79,7 @@ fn answer(
     input: impl Read,
     output: impl Write,
     method: Method,
-) -> Result<Outcome, Error> {
+) -> Result<Validity, Stop> {
     let output = RefCell::new(BufWriter::with_capacity(BUFFER, output));
     let failed = RefCell::new(None);
     let input = Patient {
@@ -107,12 +88,15 @@ fn answer(
         failed: &failed,
     };
     let mut rows = Rows::new(BufReader::with_capacity(BUFFER, input));
-    let unreadable = |error| Error::Read(path.to_owned(), error);
-    let refused = |reason| Error::Header(path.to_owned(), reason);
+    let unread = |e: io::Error| Stop::Failed(unreadable(path, &e));
+    let refused =
+        |reason: String| Stop::Failed(Failure::invalid(format_args!("{}: {reason}", shown(path))));
 
     let mut row = Row::default();
-    if !rows.read(&mut row, None).map_err(unreadable)? {
-        return Err(Error::Empty(path.to_owned()));
+    if !rows.read(&mut row, None).map_err(unread)? {
+        let (path, columns) = (shown(path), INPUTS.join(","));
+        let sentence = format!("{path} is empty: expected a header with {columns}");
+        return Err(Stop::Failed(Failure::invalid(sentence)));
     }
     let columns = Columns::of(&row).map_err(refused)?;
     let mut text = Vec::new();
@@ -122,13 +106,13 @@ fn answer(
         text.extend_from_slice(name.as_bytes());
     }
     end(&row, &mut text);
-    output.borrow_mut().write_all(&text).map_err(unwritable)?;
+    output
+        .borrow_mut()
+        .write_all(&text)
+        .map_err(Stop::Unwritten)?;
 
-    let mut outcome = Outcome::AllValid;
-    while rows
-        .read(&mut row, Some(columns.count()))
-        .map_err(unreadable)?
-    {
+    let mut validity = Validity::All;
+    while rows.read(&mut row, Some(columns.count())).map_err(unread)? {
         // Input that ended since nobody reads the answers may have ended within a row.
         if failed.borrow().is_some() {
             break;
@@ -137,30 +121,25 @@ fn answer(
         columns.copy(&row, &mut text);
         match columns.read(&row) {
             Ok((ray, sphere)) => {
-                push_answers(&mut text, method, &ray, &sphere).map_err(unwritable)?;
+                push_answers(&mut text, method, &ray, &sphere).map_err(Stop::Unwritten)?;
             }
             Err(reason) => {
-                outcome = Outcome::SomeInvalid;
+                validity = Validity::Some;
                 complain(format_args!("{}: line {}, {reason}", shown(path), row.line));
                 text.extend_from_slice(b",invalid,,,,,,");
             }
         }
         end(&row, &mut text);
-        output.borrow_mut().write_all(&text).map_err(unwritable)?;
+        output
+            .borrow_mut()
+            .write_all(&text)
+            .map_err(Stop::Unwritten)?;
     }
     if let Some(error) = failed.take() {
-        return Err(unwritable(error));
+        return Err(Stop::Unwritten(error));
     }
-    output.borrow_mut().flush().map_err(unwritable)?;
-    Ok(outcome)
-}
-
-fn unwritable(error: io::Error) -> Error {
-    if error.kind() == io::ErrorKind::BrokenPipe {
-        Error::Closed
-    } else {
-        Error::Write(error)
-    }
+    output.borrow_mut().flush().map_err(Stop::Unwritten)?;
+    Ok(validity)
 }
 
 /// Where the ten inputs stand in a row.

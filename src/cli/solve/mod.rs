@@ -7,11 +7,11 @@ mod rows;
 mod single;
 
 use std::path::PathBuf;
-use std::process::ExitCode;
 
 pub(super) use input::number;
 
-use super::{INVALID, choice, complain, written};
+use super::failure::{DONE, INVALID};
+use super::{Failure, Outcome, choice, write_out};
 use crate::method::Method;
 
 /// Work out where a line meets a sphere, step by step, or for a whole file of them
@@ -58,25 +58,18 @@ enum Format {
 }
 
 /// Does what `rayscope solve` was asked to.
-pub(super) fn run(arguments: &Solve) -> ExitCode {
+pub(super) fn run(arguments: &Solve) -> Outcome {
     match (&arguments.batch, &arguments.ray, &arguments.sphere) {
-        (Some(file), ..) => run_batch(file, arguments.method),
+        (Some(file), ..) => match batch::run(file, arguments.method)? {
+            batch::Validity::All => Ok(DONE),
+            batch::Validity::Some => Ok(INVALID),
+        },
         (None, Some(ray), Some(sphere)) => {
-            let derivation = single::written(ray, sphere, arguments.method, arguments.format);
-            written(derivation)
+            let (method, format) = (arguments.method, arguments.format);
+            let text = single::written(ray, sphere, method, format).map_err(Failure::invalid)?;
+            write_out(&text)
         }
         // The parser asks for the two unless there is a batch.
-        _ => ExitCode::SUCCESS,
-    }
-}
-
-fn run_batch(file: &std::path::Path, method: Method) -> ExitCode {
-    match batch::run(file, method) {
-        Ok(batch::Outcome::AllValid) | Err(batch::Error::Closed) => ExitCode::SUCCESS,
-        Ok(batch::Outcome::SomeInvalid) => INVALID.into(),
-        Err(error) => {
-            complain(error);
-            INVALID.into()
-        }
+        _ => Ok(DONE),
     }
 }

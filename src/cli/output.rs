@@ -1,0 +1,37 @@
+//! What the commands write: reports to standard output and to files, complaints to standard error.
+
+use std::fmt;
+use std::io::{self, ErrorKind, Write};
+use std::path::Path;
+
+use super::failure::{DONE, Failure, Outcome};
+
+/// Writes a report to standard output.
+pub(super) fn write_out(text: &str) -> Outcome {
+    let mut out = io::stdout().lock();
+    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    written.or_else(|error| unwritable(&error))?;
+    Ok(DONE)
+}
+
+/// What a failed write to standard output means: whoever closed it early has seen enough.
+pub(super) fn unwritable(error: &io::Error) -> Result<(), Failure> {
+    match error.kind() {
+        ErrorKind::BrokenPipe => Ok(()),
+        _ => Err(Failure::invalid(format_args!("standard output: {error}"))),
+    }
+}
+
+/// Writes a file if one is asked for.
+pub(super) fn save(path: Option<&Path>, contents: impl FnOnce() -> String) -> Result<(), Failure> {
+    let Some(path) = path else {
+        return Ok(());
+    };
+    std::fs::write(path, contents())
+        .map_err(|error| Failure::invalid(format_args!("cannot write {}: {error}", path.display())))
+}
+
+/// Says a sentence on standard error. If nobody can read it, nobody is missing it.
+pub(super) fn complain(sentence: impl fmt::Display) {
+    let _ = writeln!(io::stderr(), "rayscope: {sentence}");
+}
