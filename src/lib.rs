@@ -3,6 +3,7 @@
 //! Data flows one way, from the top of this list to its bottom; a module imports only from those
 //! above it.
 //!
+//! * [`text`]: text as people, programs and files write it: characters, numbers, lines
 //! * [`geometry`]: rays and spheres, plain data, checked where it comes in
 //! * [`method`]: the quadratic, and the ways to evaluate it
 //! * [`scene`]: spheres, camera, light; scene files; the built-in scenes
@@ -22,3 +23,4 @@ pub mod method;
 pub mod render;
 pub mod scene;
 pub mod terminal;
+pub mod text;

@@ -7,11 +7,11 @@ use std::fs;
 use ratatui::buffer::Buffer;
 use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 use ratatui::layout::Rect;
-use rayscope::explain::Glyphs;
 use rayscope::explorer::{Explorer, Options};
 use rayscope::render::{ColorDepth, Style};
 use rayscope::scene::Scene;
 use rayscope::terminal::{Limits, Painter};
+use rayscope::text::Glyphs;
 
 /// An explorer on a terminal of which only the line to it is looked at.
 struct Wire {

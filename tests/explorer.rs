@@ -12,7 +12,7 @@ use ratatui::crossterm::event::{
 };
 use ratatui::layout::Rect;
 use ratatui::style::Color;
-use rayscope::explain::{Digits, Glyphs, number};
+use rayscope::explain::{Digits, number};
 use rayscope::explorer::action::{Action, markdown};
 use rayscope::explorer::{Explorer, Options, Request, Waker};
 use rayscope::geometry::Ray;
@@ -20,6 +20,7 @@ use rayscope::lab::{Alone, HEADER};
 use rayscope::method::{Class, Method, Precision};
 use rayscope::render::{ColorDepth, Style};
 use rayscope::scene::{PixelShape, Rays, Scene, Size};
+use rayscope::text::Glyphs;
 
 /// An explorer with a screen.
 struct Person {
@@ -174,7 +175,7 @@ fn screens_at_80_by_24_and_160_by_50() {
 #[test]
 fn a_screen_in_ascii_has_no_byte_above_127() {
     let options = Options {
-        glyphs: rayscope::explain::Glyphs::Ascii,
+        glyphs: rayscope::text::Glyphs::Ascii,
         depth: ColorDepth::None,
         ..textbook()
     };

@@ -5,11 +5,11 @@ use ratatui::buffer::Buffer;
 use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 use ratatui::layout::{Position, Rect};
 use ratatui::style::{Color, Modifier, Style};
-use rayscope::explain::Glyphs;
 use rayscope::explorer::{Explorer, Options, Palette};
 use rayscope::render::ColorDepth;
 use rayscope::scene::Scene;
 use rayscope::terminal::{Limits, Painter};
+use rayscope::text::Glyphs;
 
 #[path = "terminal/seen.rs"]
 mod seen;

@@ -6,11 +6,11 @@ use std::path::Path;
 use ratatui::buffer::Buffer;
 use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 use ratatui::layout::Rect;
-use rayscope::explain::Glyphs;
 use rayscope::explorer::tour::{self, Chapter};
 use rayscope::explorer::{Explorer, Options};
 use rayscope::render::ColorDepth;
 use rayscope::scene::Scene;
+use rayscope::text::Glyphs;
 
 /// Somebody with the explorer before them.
 struct Student {

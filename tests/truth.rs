@@ -2,10 +2,12 @@
 
 use std::cmp::Ordering;
 
+use dashu_int::IBig;
 use glam::Vec3;
 use proptest::prelude::*;
 use rayscope::geometry::{Ray, Sphere};
-use rayscope::method::{Class, Dyadic, Truth, ulp_error};
+use rayscope::method::{Class, Dyadic, Surd, Truth, ulp_error};
+use rayscope::text::read;
 
 #[test]
 fn gives_the_expected_answer_of_every_named_case() {
@@ -138,6 +140,60 @@ proptest! {
             prop_assert!(off <= 0.5, "{rounded} is {off} ulp from the root");
             prop_assert!(rounds_to(&truth, far, rounded), "{rounded}");
             prop_assert!(rounded == f32::INFINITY || !rounds_to(&truth, far, rounded.next_up()));
+        }
+    }
+}
+
+/// Hexadecimal digits, the place of the point among them, and a power of two.
+fn hexadecimals() -> impl Strategy<Value = (String, usize, i32)> {
+    let power = prop_oneof![-200..200, -1200..1200_i32];
+    // Halfway between two numbers of either format, and a little beside.
+    let halfway = (
+        prop_oneof![Just(24_u32), Just(53)],
+        any::<u64>(),
+        "0{0,20}1?",
+    )
+        .prop_map(|(bits, m, rest)| format!("{:x}{rest}", m >> (63 - bits) | 1 << bits | 1));
+    let digits = prop_oneof!["[0-9a-f]{1,40}".prop_map(String::from), halfway];
+    (digits, 0..40_usize, power)
+}
+
+fn of_digits(digits: &str, point: usize, power: i32) -> Dyadic {
+    let mantissa = IBig::from_str_radix(digits, 16).unwrap();
+    let places = digits.len() - point.min(digits.len());
+    Dyadic::new(mantissa, i64::from(power) - 4 * places as i64)
+}
+
+/// Whether no neighbour of `x` is nearer to `exact`, or as near and even.
+fn is_nearest(exact: &Dyadic, x: f64, [down, up]: [f64; 2], is_even: bool) -> bool {
+    let off = |y: f64| (exact - &Dyadic::from_f64(y).unwrap()).abs();
+    [down, up]
+        .into_iter()
+        .filter(|y| y.is_finite())
+        .all(|y| match off(x).cmp(&off(y)) {
+            Ordering::Less => true,
+            Ordering::Equal => is_even,
+            Ordering::Greater => false,
+        })
+}
+
+proptest! {
+    #[test]
+    fn hexadecimal_digits_are_rounded_once((digits, point, power) in hexadecimals()) {
+        let exact = of_digits(&digits, point, power);
+        let (whole, fraction) = digits.split_at(point.min(digits.len()));
+        let text = format!("0x{whole}.{fraction}p{power:+}");
+        // Big rationals have a rounding of their own.
+        let surd = Surd::from(exact.clone());
+        prop_assert_eq!(read::binary32(&text), Some(surd.to_f32()), "{}", &text);
+        let minus = format!("−{}", text.to_uppercase().replace('−', "-"));
+        prop_assert_eq!(read::binary32(&minus), Some(-surd.to_f32()), "{}", &minus);
+        prop_assert_eq!(read::binary64(&text), Some(surd.to_f64()), "{}", &text);
+        // And by the definition: nothing that binary32 has is nearer.
+        let x = read::binary32(&text).unwrap();
+        if x.is_finite() {
+            let neighbours = [x.next_down(), x.next_up()].map(f64::from);
+            prop_assert!(is_nearest(&exact, x.into(), neighbours, x.to_bits().is_multiple_of(2)));
         }
     }
 }

@@ -5,10 +5,10 @@ use std::io::{self, IsTerminal as _};
 use clap::{Args, ValueEnum};
 
 use super::{Failure, choice};
-use crate::explain::Glyphs;
 use crate::explorer::{Options, Palette, Reasons};
 use crate::render::{ColorDepth, Style};
 use crate::terminal::Capability;
+use crate::text::Glyphs;
 
 /// How the explorer is drawn.
 #[derive(Debug, Args)]

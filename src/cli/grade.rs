@@ -14,7 +14,8 @@ use super::{Failure, Outcome, complain, shown, write_out};
 use crate::geometry::{Ray, Sphere};
 use crate::lab::Problem;
 use crate::lab::grade::{self, Claim};
-use crate::method::{Class, read};
+use crate::method::Class;
+use crate::text::read;
 
 /// Hold somebody else's answers against the truth, beside the methods here
 #[derive(Debug, Args)]

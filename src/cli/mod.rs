@@ -26,7 +26,7 @@ use std::process::ExitCode;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::method::read;
+use crate::text::read;
 use failure::{DONE, Failure, Outcome};
 use output::{complain, save, unwritable, write_out};
 

@@ -75,8 +75,9 @@ mod tests {
     use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 
     use super::super::{Arguments, Command, Failure, explore, tour};
-    use crate::explain::{Digits, Glyphs, lines, plain_text};
+    use crate::explain::{Digits, lines, plain_text};
     use crate::explorer::{Explorer, Options, command_line};
+    use crate::text::Glyphs;
 
     /// Opens what a command line asks for, on a screen of 80 by 24.
     fn open(words: &[String]) -> Result<Explorer, Failure> {

@@ -16,6 +16,7 @@ use crate::method::Method;
 use crate::render::{AnsiColor, CELL_ASPECT, Cell, ColorDepth, Frame, Image, Look, Style, View};
 use crate::scene::{PixelShape, Rays, Rgb, Scene, Size};
 use crate::terminal::{Capability, Limits, Painter};
+use crate::text;
 
 /// Show what a frame needs, what is left out, and why
 #[derive(Debug, Args)]
@@ -238,7 +239,7 @@ fn text(report: &Report) -> String {
     } in &report.frames
     {
         let _ = writeln!(out, "\n{what}");
-        for line in explain::wrap(how, 80) {
+        for line in text::wrap(how, 80) {
             let _ = writeln!(out, "{line}");
         }
         out += "\n";

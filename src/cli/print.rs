@@ -8,13 +8,14 @@ use crossterm::terminal::window_size;
 
 use super::appearance::{Color, default_style};
 use super::{Failure, Outcome, aspect, choice, write_out};
-use crate::explain::{self, Digits, Drawn, Glyphs, Reading};
+use crate::explain::{self, Digits, Drawn, Reading};
 use crate::method::Method;
 use crate::render::{
     AnsiColor, CELL_ASPECT, Cell, ColorDepth, Frame, Image, Look, Style, View, fit,
 };
 use crate::scene::{PixelShape, Rays, Scene, Size};
 use crate::terminal::Capability;
+use crate::text::Glyphs;
 
 /// Draw a scene once, as text
 #[derive(Debug, Args)]

@@ -3,8 +3,8 @@
 use super::figure::{Float, bits};
 use super::panel::{Line, Role, unit_lines};
 use crate::method::Precision;
-use crate::method::format::Signs;
 use crate::method::trace::{Measured, Trace, error_text};
+use crate::text::{Glyphs, wrap};
 
 /// Width of a quantity's name.
 const LABEL: usize = 5;
@@ -33,10 +33,10 @@ pub fn comparison(one: &Trace, other: &Trace, width: usize) -> Vec<Line> {
         out.extend(errors(x, y, column));
         out.extend(differing_bits(x, y, width));
     }
-    let verdicts = [one, other].map(|t| t.verdict(Signs::Typographic));
+    let verdicts = [one, other].map(|t| t.verdict(Glyphs::Unicode));
     for wrong in verdicts.into_iter().flatten() {
         out.push(Line::new(4));
-        let lines = super::wrap(&wrong, width).into_iter();
+        let lines = wrap(&wrong, width).into_iter();
         out.extend(lines.map(|text| Line::new(0).with(Role::Warning, text)));
     }
     let mut numbers = pairs.into_iter().flat_map(|(_, x, y)| [x, y]).flatten();
@@ -67,7 +67,7 @@ pub fn measured_bits(label: &str, number: &Measured, width: usize) -> Vec<Line> 
 fn values(label: &str, x: Option<&Measured>, y: Option<&Measured>, column: usize) -> Line {
     let show = |m: Option<&Measured>| {
         m.map_or("none".into(), |m| {
-            let shortest = m.shortest(Signs::Typographic);
+            let shortest = m.shortest(Glyphs::Unicode);
             shortest.rounded(column.saturating_sub(8).clamp(3, 17))
         })
     };
@@ -95,7 +95,7 @@ fn errors(x: Option<&Measured>, y: Option<&Measured>, column: usize) -> Vec<Line
         m.and_then(|m| m.ulps_in(unit))
             .map(|ulps| match ulps {
                 0.0 => "exact".to_owned(),
-                ulps => error_text(ulps, unit, Signs::Typographic),
+                ulps => error_text(ulps, unit, Glyphs::Unicode),
             })
             .unwrap_or_default()
     };

@@ -16,11 +16,10 @@ use std::cmp::Ordering;
 
 use glam::Vec3;
 
-use super::wrap;
-use super::{Digits, Glyphs, Ink, Meeting, Reading, Subject, Wrong, number, vector};
-use crate::method::format::Signs;
+use super::{Digits, Ink, Meeting, Reading, Subject, Wrong, number, vector};
 use crate::method::trace::{Measured, error_text};
 use crate::method::{Class, Coefficients, Place, Precision, Solution, Trace};
+use crate::text::{Glyphs, wrap};
 
 /// One line of a panel.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -389,13 +388,13 @@ fn exact_line(measured: Option<&Measured>, width: usize, spare: u8) -> Line {
 }
 
 fn off_line(measured: &Measured, ulps: f64, width: usize, spare: u8) -> Option<Line> {
-    let off = format!("  {:>OFF$}", error_text(ulps, measured.precision, SIGNS));
+    let off = format!("  {:>OFF$}", error_text(ulps, measured.precision, GLYPHS));
     let room = width.saturating_sub(SUBSTITUTED + "exactly ".len() + off.chars().count());
     let exact = (4..=MOST_DIGITS)
         .rev()
-        .filter_map(|digits| measured.exact_text(digits, SIGNS))
+        .filter_map(|digits| measured.exact_text(digits, GLYPHS))
         .find(|text| text.chars().count() <= room)
-        .or_else(|| measured.exact_text(3, SIGNS))?;
+        .or_else(|| measured.exact_text(3, GLYPHS))?;
     // A number that is merely rounded is no news; one that is further off is.
     let (role, spare) = if ulps.abs() <= HALF_ULP {
         (Role::Faint, spare)
@@ -414,7 +413,7 @@ const OFF: usize = 10;
 const MOST_DIGITS: usize = 17;
 /// The error of a number that is the exact value rounded once.
 const HALF_ULP: f64 = 0.5;
-const SIGNS: Signs = Signs::Typographic;
+const GLYPHS: Glyphs = Glyphs::Unicode;
 /// From this error on, a third of the bits of a binary32 are gone.
 const MANY_ULPS: f64 = 256.0;
 
@@ -484,7 +483,7 @@ fn verdict_lines(subject: &Subject, width: usize, digits: Digits) -> Vec<Line> {
         Line::new(4),
         Line::new(0).with(Role::Verdict(class), clip(verdict, width)),
     ];
-    if let Some(wrong) = subject.trace.verdict(SIGNS) {
+    if let Some(wrong) = subject.trace.verdict(GLYPHS) {
         let lines = wrap(&wrong, width).into_iter();
         out.extend(lines.map(|text| Line::new(0).with(Role::Warning, text)));
     }

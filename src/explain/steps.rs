@@ -1,8 +1,8 @@
 //! The steps of a derivation as lines of text: one step large, and the list of all.
 
-use super::Glyphs;
 use super::derivation::{Question, Step};
 use super::panel::{EXACTLY, Line, Role, unit_lines};
+use crate::text::{Glyphs, wrap};
 
 /// How a step is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -207,55 +207,4 @@ fn wrapped(text: &str, width: usize, role: Role, lead: &str, spare: u8) -> Vec<L
             line.with(Role::Plain, lead).with(role, part)
         })
         .collect()
-}
-
-/// The words of `text` in lines of at most `width` characters; a longer word is cut in pieces.
-pub fn wrap(text: &str, width: usize) -> Vec<String> {
-    let width = width.max(1);
-    let mut lines = Vec::new();
-    let mut line = String::new();
-    let mut room = width;
-    for word in text.split_whitespace() {
-        let letters: Vec<char> = word.chars().collect();
-        if !line.is_empty() && letters.len() + 1 > room {
-            lines.push(std::mem::take(&mut line));
-            room = width;
-        }
-        if !line.is_empty() {
-            line.push(' ');
-            room -= 1;
-        }
-        for piece in letters.chunks(width) {
-            if piece.len() > room {
-                lines.push(std::mem::take(&mut line));
-                room = width;
-            }
-            line.extend(piece);
-            room -= piece.len();
-        }
-    }
-    if !line.is_empty() || lines.is_empty() {
-        lines.push(line);
-    }
-    lines
-}
-
-#[cfg(test)]
-mod tests {
-    use proptest::prelude::*;
-
-    use super::*;
-
-    proptest! {
-        #[test]
-        fn wrapped_lines_hold_every_word_and_no_more_than_the_width(
-            text in "[a-zé ]{0,80}",
-            width in 1..30_usize,
-        ) {
-            let lines = wrap(&text, width);
-            prop_assert!(lines.iter().all(|l| l.chars().count() <= width));
-            let letters = |s: &str| s.chars().filter(|c| *c != ' ').collect::<String>();
-            prop_assert_eq!(letters(&lines.concat()), letters(&text));
-        }
-    }
 }

@@ -1,9 +1,9 @@
 //! How the explorer is drawn, why so, and what it asks of the loop that runs it.
 
-use crate::explain::Glyphs;
 use crate::explorer::draw::theme::Palette;
 use crate::method::Method;
 use crate::render::{ColorDepth, Style, View};
+use crate::text::Glyphs;
 
 /// How the explorer starts.
 #[derive(Debug, Clone, Copy)]

@@ -2,10 +2,11 @@
 
 use std::fmt::Write as _;
 
-use super::hexadecimal::{hexadecimal, numbers};
+use super::numbers;
 use super::{Problem, Reference};
-use crate::method::format::{Signs, binary32};
+use crate::method::format::binary32;
 use crate::method::{Class, Method};
+use crate::text::{Glyphs, hexadecimal};
 
 /// In which form a case is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -79,7 +80,7 @@ impl Case {
     /// The row without its header: numbers in the shortest decimal that reads back as the same
     /// binary32.
     pub fn row(&self) -> String {
-        let decimal = |x: f32| binary32(x, Signs::Ascii).to_string();
+        let decimal = |x: f32| binary32(x, Glyphs::Ascii).to_string();
         let inputs = numbers(&self.problem).map(decimal).join(",");
         let (ray, sphere) = &self.problem;
         let answer = self.method.solve(ray, sphere);

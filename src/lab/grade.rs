@@ -4,12 +4,13 @@ use std::fmt::Write as _;
 
 use serde::Serialize;
 
-use super::bench::text::{brief, error_lines, wrapped};
+use super::bench::text::{brief, error_lines};
 use super::errors::{Census, Errors, Percentiles, Worst, Wrong};
-use super::hexadecimal::{hexadecimal, numbers};
+use super::numbers;
 use super::{Problem, Reference};
-use crate::method::format::{Signs, binary32};
+use crate::method::format::binary32;
 use crate::method::{Class, Method, Solution};
+use crate::text::{Glyphs, hexadecimal, paragraph};
 
 /// What somebody says of one ray and sphere.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -101,7 +102,7 @@ pub fn table(grade: &Grade) -> String {
 fn input(problem: &Problem) -> String {
     let x = numbers(problem);
     let list = |x: &[f32]| {
-        let decimals = x.iter().map(|&x| binary32(x, Signs::Ascii).to_string());
+        let decimals = x.iter().map(|&x| binary32(x, Glyphs::Ascii).to_string());
         decimals.collect::<Vec<_>>().join(",")
     };
     let [ox, oy, oz, dx, dy, dz, cx, cy, cz, r] = x.map(hexadecimal);
@@ -112,7 +113,7 @@ fn input(problem: &Problem) -> String {
     );
     format!(
         "  p0 {ox} {oy} {oz}\n  d  {dx} {dy} {dz}\n  c  {cx} {cy} {cz}\n  r  {r}\n{}",
-        wrapped(&command)
+        paragraph(&command)
     )
 }
 

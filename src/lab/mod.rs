@@ -10,7 +10,6 @@ mod errors;
 pub mod families;
 pub mod frames;
 pub mod grade;
-mod hexadecimal;
 mod machine;
 pub mod picture;
 pub mod plot;
@@ -28,7 +27,6 @@ pub use errors::{
     Census, Checksum, Errors, Fault, Judgement, Percentiles, RootError, Worst, Wrong, judge,
 };
 pub use families::Family;
-pub use hexadecimal::{hexadecimal, numbers};
 pub use machine::Machine;
 pub use random::Random;
 pub use reference::{Reference, Root};
@@ -38,3 +36,11 @@ use crate::geometry::{Ray, Sphere};
 
 /// What a method is asked: where the line of this ray meets this sphere.
 pub type Problem = (Ray, Sphere);
+
+/// The ten numbers of a problem, in the order of the columns ox … r.
+pub fn numbers((ray, sphere): &Problem) -> [f32; 10] {
+    let [ox, oy, oz] = ray.origin.to_array();
+    let [dx, dy, dz] = ray.direction.to_array();
+    let [cx, cy, cz] = sphere.center.to_array();
+    [ox, oy, oz, dx, dy, dz, cx, cy, cz, sphere.radius]
+}

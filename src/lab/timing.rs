@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::Problem;
 use super::errors::nearest_rank;
-use super::hexadecimal::numbers;
+use super::numbers;
 use super::random::Random;
 use crate::geometry::{Ray, Sphere};
 use crate::method::batch::{Batch, Solutions};

@@ -5,77 +5,7 @@ use std::fmt;
 
 use super::Precision;
 use super::surd::{Digits, Surd};
-
-/// Which signs to write.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum Signs {
-    /// `-`, `inf`: for files, and for terminals that have nothing else.
-    #[default]
-    Ascii,
-    /// `−` and `∞`, as in print; `…` where digits were cut off.
-    Typographic,
-}
-
-impl Signs {
-    /// The minus sign.
-    pub const fn minus(self) -> &'static str {
-        match self {
-            Self::Ascii => "-",
-            Self::Typographic => "−",
-        }
-    }
-
-    /// A formula or a name as these signs write it: `B² − 4AC` or `B^2 - 4AC`, `Δ` or `disc`.
-    pub fn spell(self, text: &str) -> String {
-        if self == Self::Typographic {
-            return text.to_owned();
-        }
-        let mut spelt = String::with_capacity(text.len());
-        for c in text.chars() {
-            match ASCII.iter().find(|(sign, _)| *sign == c) {
-                Some((_, ascii)) => spelt += ascii,
-                None => spelt.push(c),
-            }
-        }
-        spelt
-    }
-
-    const fn infinity(self) -> &'static str {
-        match self {
-            Self::Ascii => "inf",
-            Self::Typographic => "∞",
-        }
-    }
-
-    const fn ellipsis(self) -> &'static str {
-        match self {
-            Self::Ascii => "...",
-            Self::Typographic => "…",
-        }
-    }
-}
-
-/// What stands for the signs of mathematics where there is only ASCII.
-const ASCII: [(char, &str); 18] = [
-    ('−', "-"),
-    ('·', "*"),
-    ('×', "x"),
-    ('÷', "/"),
-    ('±', "+-"),
-    ('√', "sqrt "),
-    ('²', "^2"),
-    ('Δ', "disc"),
-    ('‖', "|"),
-    ('≤', "<="),
-    ('≥', ">="),
-    ('≠', "!="),
-    ('∞', "inf"),
-    ('…', "..."),
-    ('–', "-"),
-    ('′', "'"),
-    ('₆', "6"),
-    ('₄', "4"),
-];
+use crate::text::Glyphs;
 
 /// A number as the shortest decimal that reads back as the same number of its precision.
 ///
@@ -87,25 +17,25 @@ pub struct Shortest {
     pub value: f64,
     /// Of which numbers it is one.
     pub precision: Precision,
-    /// How to write its sign.
-    pub signs: Signs,
+    /// In which characters; in Unicode a zero has no sign, in ASCII it reads back as the zero it is.
+    pub glyphs: Glyphs,
 }
 
 /// The shortest decimal for a binary32.
-pub fn binary32(value: f32, signs: Signs) -> Shortest {
+pub fn binary32(value: f32, glyphs: Glyphs) -> Shortest {
     Shortest {
         value: value.into(),
         precision: Precision::Binary32,
-        signs,
+        glyphs,
     }
 }
 
 /// The shortest decimal for a binary64.
-pub fn binary64(value: f64, signs: Signs) -> Shortest {
+pub fn binary64(value: f64, glyphs: Glyphs) -> Shortest {
     Shortest {
         value,
         precision: Precision::Binary64,
-        signs,
+        glyphs,
     }
 }
 
@@ -117,21 +47,21 @@ impl Shortest {
             return self.to_string();
         }
         let digits = Scientific::of(format_args!("{:.*e}", count.max(1) - 1, self.value));
-        digits.layout(self.signs).text()
+        digits.layout(self.glyphs).text()
     }
 
     fn write(self, out: &mut impl fmt::Write) -> fmt::Result {
         if self.value.is_finite() {
-            self.digits().layout(self.signs).write(out)
+            self.digits().layout(self.glyphs).write(out)
         } else if self.value.is_nan() {
             out.write_str("NaN")
         } else {
             let minus = if self.value < 0.0 {
-                self.signs.minus()
+                self.glyphs.minus()
             } else {
                 ""
             };
-            write!(out, "{minus}{}", self.signs.infinity())
+            write!(out, "{minus}{}", self.glyphs.infinity())
         }
     }
 
@@ -156,7 +86,7 @@ impl fmt::Display for Shortest {
 
 /// An exact value in decimal, to at most `count` digits: all of it, or the first of its digits
 /// and an ellipsis.
-pub fn exact(value: &Surd, count: usize, signs: Signs) -> String {
+pub fn exact(value: &Surd, count: usize, glyphs: Glyphs) -> String {
     let Digits {
         negative,
         digits,
@@ -168,7 +98,7 @@ pub fn exact(value: &Surd, count: usize, signs: Signs) -> String {
         digits: &digits,
         exponent,
         exact,
-        signs,
+        glyphs,
     };
     layout.text()
 }
@@ -212,13 +142,13 @@ impl Scientific {
         str::from_utf8(&self.digits[..self.count]).unwrap_or_default()
     }
 
-    fn layout(&self, signs: Signs) -> Layout<'_> {
+    fn layout(&self, glyphs: Glyphs) -> Layout<'_> {
         Layout {
             negative: self.negative,
             digits: self.text(),
             exponent: self.exponent + 1,
             exact: true,
-            signs,
+            glyphs,
         }
     }
 }
@@ -250,7 +180,7 @@ struct Layout<'a> {
     digits: &'a str,
     exponent: i64,
     exact: bool,
-    signs: Signs,
+    glyphs: Glyphs,
 }
 
 fn zeros(out: &mut impl fmt::Write, count: i64) -> fmt::Result {
@@ -271,12 +201,12 @@ impl Layout<'_> {
             digits,
             exponent: point,
             exact,
-            signs,
+            glyphs,
         } = *self;
-        let more = if exact { "" } else { signs.ellipsis() };
+        let more = if exact { "" } else { glyphs.ellipsis() };
         // In print a zero has no sign; in a file it reads back as the zero it was.
-        if negative && !(digits.is_empty() && signs == Signs::Typographic) {
-            f.write_str(signs.minus())?;
+        if negative && !(digits.is_empty() && glyphs == Glyphs::Unicode) {
+            f.write_str(glyphs.minus())?;
         }
         if digits.is_empty() {
             return f.write_str("0");
@@ -299,7 +229,7 @@ impl Layout<'_> {
         } else {
             let (first, rest) = digits.split_at(1);
             let dot = if rest.is_empty() { "" } else { "." };
-            let minus = if point < 1 { signs.minus() } else { "" };
+            let minus = if point < 1 { glyphs.minus() } else { "" };
             write!(f, "{first}{dot}{rest}{more}e{minus}{}", (point - 1).abs())
         }
     }
@@ -311,7 +241,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn ascii(x: f32) -> String {
-        binary32(x, Signs::Ascii).to_string()
+        binary32(x, Glyphs::Ascii).to_string()
     }
 
     #[test]
@@ -337,44 +267,44 @@ mod tests {
         for (x, text) in written {
             assert_eq!(ascii(x), text);
         }
-        let print = |x| binary32(x, Signs::Typographic).to_string();
+        let print = |x| binary32(x, Glyphs::Unicode).to_string();
         assert_eq!(print(-40.0), "−40");
         assert_eq!(print(-0.0), "0");
         assert_eq!(print(-1.5e-7), "−1.5e−7");
         assert_eq!(print(f32::NEG_INFINITY), "−∞");
-        assert_eq!(format!("{:>4}", binary32(7.0, Signs::Ascii)), "   7");
+        assert_eq!(format!("{:>4}", binary32(7.0, Glyphs::Ascii)), "   7");
     }
 
     #[test]
     fn a_whole_number_keeps_all_its_digits() {
-        let big = binary64(281_474_976_710_657.0, Signs::Ascii);
+        let big = binary64(281_474_976_710_657.0, Glyphs::Ascii);
         assert_eq!(big.to_string(), "281474976710657");
     }
 
     #[test]
     fn rounds_where_room_is_short() {
-        let third = binary32(1.0 / 3.0, Signs::Ascii);
+        let third = binary32(1.0 / 3.0, Glyphs::Ascii);
         assert_eq!(third.rounded(3), "0.333");
-        assert_eq!(binary32(9.996, Signs::Ascii).rounded(3), "10");
-        assert_eq!(binary32(-40.0, Signs::Typographic).rounded(3), "−40");
-        assert_eq!(binary32(1_234_567.0, Signs::Ascii).rounded(3), "1230000");
-        assert_eq!(binary32(f32::NAN, Signs::Ascii).rounded(3), "NaN");
+        assert_eq!(binary32(9.996, Glyphs::Ascii).rounded(3), "10");
+        assert_eq!(binary32(-40.0, Glyphs::Unicode).rounded(3), "−40");
+        assert_eq!(binary32(1_234_567.0, Glyphs::Ascii).rounded(3), "1230000");
+        assert_eq!(binary32(f32::NAN, Glyphs::Ascii).rounded(3), "NaN");
     }
 
     #[test]
     fn shows_exact_values_to_the_digits_there_is_room_for() {
         let tenth = Surd::from_f64(0.1_f32.into()).unwrap();
-        assert_eq!(exact(&tenth, 13, Signs::Typographic), "0.1000000014901…");
-        assert_eq!(exact(&tenth, 13, Signs::Ascii), "0.1000000014901...");
+        assert_eq!(exact(&tenth, 13, Glyphs::Unicode), "0.1000000014901…");
+        assert_eq!(exact(&tenth, 13, Glyphs::Ascii), "0.1000000014901...");
         assert_eq!(
-            exact(&tenth, 40, Signs::Ascii),
+            exact(&tenth, 40, Glyphs::Ascii),
             "0.100000001490116119384765625"
         );
         let odd = Surd::from_f64(-16_777_217.0).unwrap();
-        assert_eq!(exact(&odd, 20, Signs::Typographic), "−16777217");
-        assert_eq!(exact(&odd, 3, Signs::Typographic), "−1.67…e7");
+        assert_eq!(exact(&odd, 20, Glyphs::Unicode), "−16777217");
+        assert_eq!(exact(&odd, 3, Glyphs::Unicode), "−1.67…e7");
         assert_eq!(
-            exact(&Surd::from_f64(12.5).unwrap(), 2, Signs::Typographic),
+            exact(&Surd::from_f64(12.5).unwrap(), 2, Glyphs::Unicode),
             "12.…"
         );
     }
@@ -386,7 +316,7 @@ mod tests {
             let back: f32 = ascii(x).parse().unwrap();
             prop_assert!(back.to_bits() == x.to_bits() || x.is_nan() && back.is_nan());
             let y = f64::from_bits(wide);
-            let back: f64 = binary64(y, Signs::Ascii).to_string().parse().unwrap();
+            let back: f64 = binary64(y, Glyphs::Ascii).to_string().parse().unwrap();
             prop_assert!(back.to_bits() == y.to_bits() || y.is_nan() && back.is_nan());
         }
     }

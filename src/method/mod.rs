@@ -13,7 +13,6 @@ mod haines;
 mod kahan;
 mod number;
 mod q_form;
-pub mod read;
 pub(crate) mod simd;
 mod surd;
 mod tape;

@@ -13,11 +13,12 @@ use std::fmt;
 pub(super) use build::{A, C, Line, O, OO, RR, Steps};
 pub use loss::{Loss, LossKind};
 
-use super::format::{self, Shortest, Signs};
+use super::format::{self, Shortest};
 use super::surd::Surd;
 use super::truth::Truth;
 use super::{Class, Method, Precision, Solution};
 use crate::geometry::{Ray, Sphere};
+use crate::text::Glyphs;
 
 /// A number beside what it should be.
 #[derive(Debug, Clone)]
@@ -55,17 +56,17 @@ impl Measured {
     }
 
     /// The shortest decimal that reads back as the number.
-    pub fn shortest(&self, signs: Signs) -> Shortest {
+    pub fn shortest(&self, glyphs: Glyphs) -> Shortest {
         Shortest {
             value: self.value,
             precision: self.precision,
-            signs,
+            glyphs,
         }
     }
 
     /// The exact value to at most `digits` digits; none without one.
-    pub fn exact_text(&self, digits: usize, signs: Signs) -> Option<String> {
-        Some(format::exact(self.exact.as_ref()?, digits, signs))
+    pub fn exact_text(&self, digits: usize, glyphs: Glyphs) -> Option<String> {
+        Some(format::exact(self.exact.as_ref()?, digits, glyphs))
     }
 }
 
@@ -111,15 +112,15 @@ impl Quantity {
     }
 
     /// The number, or the components in parentheses, as shortest decimals.
-    pub fn text(&self, signs: Signs) -> String {
-        self.join(|part| part.shortest(signs).to_string())
+    pub fn text(&self, glyphs: Glyphs) -> String {
+        self.join(|part| part.shortest(glyphs).to_string())
     }
 
     /// The exact value, or the components in parentheses, to at most `digits` digits each; none if
     /// one is missing.
-    pub fn exact_text(&self, digits: usize, signs: Signs) -> Option<String> {
+    pub fn exact_text(&self, digits: usize, glyphs: Glyphs) -> Option<String> {
         let complete = self.parts().iter().all(|part| part.exact.is_some());
-        complete.then(|| self.join(|part| part.exact_text(digits, signs).unwrap_or_default()))
+        complete.then(|| self.join(|part| part.exact_text(digits, glyphs).unwrap_or_default()))
     }
 
     fn join(&self, text: impl Fn(&Measured) -> String) -> String {
@@ -233,14 +234,14 @@ impl Trace {
     }
 
     /// What is wrong with the class, in a sentence; nothing if it is right.
-    pub fn verdict(&self, signs: Signs) -> Option<String> {
+    pub fn verdict(&self, glyphs: Glyphs) -> Option<String> {
         let (said, right) = (self.solution.class, self.truth.class);
         if said == right {
             return None;
         }
-        let found = self.discriminant.shortest(signs);
-        let exact = self.discriminant.exact_text(8, signs).unwrap_or_default();
-        let delta = signs.spell("Δ");
+        let found = self.discriminant.shortest(glyphs);
+        let exact = self.discriminant.exact_text(8, glyphs).unwrap_or_default();
+        let delta = glyphs.spell("Δ");
         Some(format!(
             "{} says {said}, but {}: exactly, {delta} is {exact} and not {found}.",
             self.method,
@@ -256,23 +257,28 @@ impl Trace {
 /// Writes the derivation as text, a paragraph for each step.
 ///
 /// `digits` is how many digits exact values are shown to.
-pub fn write(trace: &Trace, out: &mut impl fmt::Write, signs: Signs, digits: usize) -> fmt::Result {
+pub fn write(
+    trace: &Trace,
+    out: &mut impl fmt::Write,
+    glyphs: Glyphs,
+    digits: usize,
+) -> fmt::Result {
     let heavy = trace.first_heavy_loss();
     for (i, step) in trace.steps.iter().enumerate() {
-        let symbol = signs.spell(step.symbol);
-        let numbers = signs.spell(&step.numbers);
+        let symbol = glyphs.spell(step.symbol);
+        let numbers = glyphs.spell(&step.numbers);
         let indent = " ".repeat(symbol.chars().count());
-        writeln!(out, "{symbol} = {}", signs.spell(step.formula))?;
+        writeln!(out, "{symbol} = {}", glyphs.spell(step.formula))?;
         writeln!(out, "{indent} = {numbers}")?;
-        writeln!(out, "{indent} = {}", step.result.text(signs))?;
-        writeln!(out, "    {}", signs.spell(step.why))?;
+        writeln!(out, "{indent} = {}", step.result.text(glyphs))?;
+        writeln!(out, "    {}", glyphs.spell(step.why))?;
         writeln!(out, "    {}", step.code)?;
-        match (step.result.ulps(), step.result.exact_text(digits, signs)) {
+        match (step.result.ulps(), step.result.exact_text(digits, glyphs)) {
             (Some(ulps), Some(exact)) if ulps != 0.0 => {
                 writeln!(
                     out,
                     "    exactly {exact}, {} off",
-                    error_text(ulps, step.result.precision(), signs)
+                    error_text(ulps, step.result.precision(), glyphs)
                 )?;
             }
             (None, _) => writeln!(out, "    exactly, there is none")?,
@@ -284,7 +290,7 @@ pub fn write(trace: &Trace, out: &mut impl fmt::Write, signs: Signs, digits: usi
             } else {
                 ""
             };
-            writeln!(out, "    {}{first}", loss.sentence(signs))?;
+            writeln!(out, "    {}{first}", loss.sentence(glyphs))?;
         }
         writeln!(out)?;
     }
@@ -292,8 +298,8 @@ pub fn write(trace: &Trace, out: &mut impl fmt::Write, signs: Signs, digits: usi
 }
 
 /// An error to three digits, with its unit: that of the precision.
-pub fn error_text(ulps: f64, precision: Precision, signs: Signs) -> String {
-    let count = format::binary64(ulps, signs).rounded(3);
+pub fn error_text(ulps: f64, precision: Precision, glyphs: Glyphs) -> String {
+    let count = format::binary64(ulps, glyphs).rounded(3);
     format!("{count} {}", precision.unit())
 }
 
@@ -408,7 +414,7 @@ mod tests {
                     prop_assert!(!step.numbers.contains(['?', '{', '}']), "{}", step.numbers);
                 }
                 let mut text = String::new();
-                write(&trace, &mut text, Signs::Ascii, 10).unwrap();
+                write(&trace, &mut text, Glyphs::Ascii, 10).unwrap();
                 prop_assert!(text.is_ascii(), "{text}");
             }
         }
@@ -490,13 +496,7 @@ mod tests {
         let shown: Vec<_> = trace
             .steps
             .iter()
-            .map(|s| {
-                (
-                    s.symbol,
-                    s.numbers.as_str(),
-                    s.result.text(Signs::Typographic),
-                )
-            })
+            .map(|s| (s.symbol, s.numbers.as_str(), s.result.text(Glyphs::Unicode)))
             .collect();
         let expected = [
             ("o", "(20, 20, 0) − (20, 20, 20)", "(0, 0, −20)"),
@@ -515,14 +515,14 @@ mod tests {
         assert_eq!(shown, expected.map(|(s, n, r)| (s, n, r.to_owned())));
         assert!(trace.steps.iter().all(|s| s.result.ulps() == Some(0.0)));
         assert!(trace.steps.iter().all(|s| s.losses.is_empty()));
-        assert_eq!(trace.verdict(Signs::Ascii), None);
+        assert_eq!(trace.verdict(Glyphs::Ascii), None);
     }
 
     fn said(trace: &Trace, symbol: &str) -> Vec<String> {
         let losses = &trace.step(symbol).unwrap().losses;
         losses
             .iter()
-            .map(|loss| loss.sentence(Signs::Ascii))
+            .map(|loss| loss.sentence(Glyphs::Ascii))
             .collect()
     }
 
@@ -542,7 +542,7 @@ mod tests {
             ["B^2 and 4AC agree in all 24 bits; none is left"]
         );
         assert_eq!(
-            lost.verdict(Signs::Ascii).unwrap(),
+            lost.verdict(Glyphs::Ascii).unwrap(),
             "textbook says tangent, but the line crosses the sphere: exactly, disc is 3 and not 0."
         );
         let kept = trace(
@@ -552,7 +552,7 @@ mod tests {
             [0.0; 3],
             1.0,
         );
-        assert_eq!(kept.verdict(Signs::Ascii), None);
+        assert_eq!(kept.verdict(Glyphs::Ascii), None);
         assert_eq!(kept.first_heavy_loss(), None);
     }
 
@@ -616,7 +616,7 @@ mod tests {
             1e6,
         );
         let lost = &ground.step("near₆₄").unwrap().losses[0];
-        let said = lost.sentence(Signs::Typographic);
+        let said = lost.sentence(Glyphs::Unicode);
         assert!(said.starts_with("−b and √D agree in 2"), "{said}");
         assert_eq!(unrounded.numbers, "tangent, near 3, far 3");
         let tilted = trace(

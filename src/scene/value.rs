@@ -10,7 +10,7 @@ use glam::Vec3;
 
 use super::Rgb;
 use crate::geometry::Decimal;
-use crate::method::read;
+use crate::text::read;
 
 /// What was found in place of a value, and what was expected there.
 #[derive(Debug, Clone, PartialEq, Eq)]

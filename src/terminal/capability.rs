@@ -3,9 +3,9 @@
 use std::env;
 use std::io::{self, IsTerminal};
 
-use crate::explain::Glyphs;
 use crate::explorer::Palette;
 use crate::render::ColorDepth;
+use crate::text::Glyphs;
 
 /// Colours and characters of a terminal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -13,9 +13,9 @@ use ratatui::layout::Position;
 use ratatui::style::{Color, Modifier};
 use unicode_width::UnicodeWidthStr;
 
-use crate::explain::Glyphs;
 use crate::explorer::Options;
 use crate::render::ColorDepth;
+use crate::text::Glyphs;
 
 const BEGIN_UPDATE: &[u8] = b"\x1b[?2026h";
 const END_UPDATE: &[u8] = b"\x1b[?2026l";

@@ -12,8 +12,9 @@ use super::super::{Failure, complain, shown, unwritable};
 use super::input::number;
 use super::rows::{LONGEST, Row, Rows, push_field};
 use crate::geometry::{Ray, Sphere};
-use crate::method::format::{self, Shortest, Signs};
+use crate::method::format::{self, Shortest};
 use crate::method::{Class, Method, Solution};
+use crate::text::Glyphs;
 
 /// The columns that are read, wherever they stand.
 const INPUTS: [&str; 10] = ["ox", "oy", "oz", "dx", "dy", "dz", "cx", "cy", "cz", "r"];
@@ -274,16 +275,16 @@ fn push_answers(text: &mut Vec<u8>, method: Method, ray: &Ray, sphere: &Sphere) 
     if class == Class::Miss {
         text.extend_from_slice(b",,");
     } else {
-        let [near, far] = [near, far].map(|t| format::binary32(t, Signs::Ascii));
+        let [near, far] = [near, far].map(|t| format::binary32(t, Glyphs::Ascii));
         write!(text, ",{near},{far}")?;
     }
     let k = method.coefficients(ray, sphere);
     for value in [k.a, k.b, k.c, k.discriminant] {
-        let (precision, signs) = (k.precision, Signs::Ascii);
+        let (precision, glyphs) = (k.precision, Glyphs::Ascii);
         let number = Shortest {
             value,
             precision,
-            signs,
+            glyphs,
         };
         write!(text, ",{number}")?;
     }

@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use crate::geometry::{Ray, Sphere};
-use crate::method::read;
+use crate::text::read;
 
 /// A number rounded once to binary32; refused with its text if it is none, or beyond the range.
 pub(in crate::cli) fn number(field: &[u8]) -> Result<f32, String> {

@@ -6,9 +6,10 @@
 use serde::{Serialize, Serializer};
 
 use crate::geometry::{Ray, Sphere};
-use crate::method::format::{self, Signs};
+use crate::method::format::{self};
 use crate::method::trace::{Loss, LossKind, Measured, Step, Trace};
 use crate::method::{Class, Place, Precision, Solution, Surd};
+use crate::text::Glyphs;
 
 /// Digits of exact values.
 const DIGITS: usize = 60;
@@ -74,7 +75,7 @@ impl<'a> Document<'a> {
                 far: trace.far.as_ref().map(Error::of),
             },
             truth: Answer::new(trace.truth),
-            verdict: trace.verdict(Signs::Ascii),
+            verdict: trace.verdict(Glyphs::Ascii),
             steps: trace.steps.iter().map(StepOut::new).collect(),
         }
     }
@@ -170,7 +171,7 @@ impl<'a> LossOut<'a> {
             },
             bits: loss.bits(),
             operands: &loss.operands,
-            text: loss.sentence(Signs::Typographic),
+            text: loss.sentence(Glyphs::Unicode),
         }
     }
 }
@@ -199,7 +200,7 @@ struct Error {
 
 impl Error {
     fn of(measured: &Measured) -> Self {
-        let exact = |value: &Surd| format::exact(value, DIGITS, Signs::Ascii);
+        let exact = |value: &Surd| format::exact(value, DIGITS, Glyphs::Ascii);
         Self {
             exact: measured.exact.as_ref().map(exact),
             ulps: measured.ulps().map(|value| Number {
@@ -235,7 +236,7 @@ impl Number {
 impl Serialize for Number {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         if !self.value.is_finite() {
-            return serializer.collect_str(&format::binary64(self.value, Signs::Ascii));
+            return serializer.collect_str(&format::binary64(self.value, Glyphs::Ascii));
         }
         match self.precision {
             Precision::Binary32 => serializer.serialize_f32(self.value as f32),

@@ -4,9 +4,10 @@ use std::fmt::{self, Write as _};
 
 use super::{Format, input, json};
 use crate::geometry::{Ray, Sphere};
-use crate::method::format::{Signs, binary32};
+use crate::method::format::binary32;
 use crate::method::trace::{self, Measured, Trace};
 use crate::method::{Class, Method};
+use crate::text::Glyphs;
 
 /// Digits of exact values in the text.
 const DIGITS: usize = 25;
@@ -34,9 +35,9 @@ fn text(ray: &Ray, sphere: &Sphere, trace: &Trace) -> String {
 }
 
 fn write_text(out: &mut String, ray: &Ray, sphere: &Sphere, trace: &Trace) -> fmt::Result {
-    let signs = Signs::Typographic;
+    let glyphs = Glyphs::Unicode;
     let vector = |v: glam::Vec3| {
-        let [x, y, z] = v.to_array().map(|x| binary32(x, signs));
+        let [x, y, z] = v.to_array().map(|x| binary32(x, glyphs));
         format!("({x}, {y}, {z})")
     };
     writeln!(
@@ -45,15 +46,15 @@ fn write_text(out: &mut String, ray: &Ray, sphere: &Sphere, trace: &Trace) -> fm
         vector(ray.origin),
         vector(ray.direction)
     )?;
-    let radius = binary32(sphere.radius, signs);
+    let radius = binary32(sphere.radius, glyphs);
     writeln!(out, "sphere  c {}  r {radius}", vector(sphere.center))?;
     writeln!(out, "method  {}\n", trace.method)?;
-    trace::write(trace, out, signs, DIGITS)?;
-    write_answer(out, trace, signs)
+    trace::write(trace, out, glyphs, DIGITS)?;
+    write_answer(out, trace, glyphs)
 }
 
 /// The class and the roots, and what is right where they are wrong.
-fn write_answer(out: &mut String, trace: &Trace, signs: Signs) -> fmt::Result {
+fn write_answer(out: &mut String, trace: &Trace, glyphs: Glyphs) -> fmt::Result {
     let class = trace.solution.class;
     let meaning = match class {
         Class::Miss => "Δ < 0: the line misses the sphere",
@@ -65,15 +66,15 @@ fn write_answer(out: &mut String, trace: &Trace, signs: Signs) -> fmt::Result {
     let mut root = |name, measured: &Option<Measured>| match measured {
         None => Ok(()),
         Some(root) => {
-            let value = root.shortest(signs);
+            let value = root.shortest(glyphs);
             match root.ulps() {
                 Some(0.0) => writeln!(out, "{name} = {value}, exactly"),
                 Some(ulps) => {
-                    let exact = root.exact_text(DIGITS, signs).unwrap_or_default();
+                    let exact = root.exact_text(DIGITS, glyphs).unwrap_or_default();
                     if root.is_correctly_rounded() {
                         return writeln!(out, "{name} = {value}, {exact} rounded once");
                     }
-                    let off = trace::error_text(ulps, root.precision, signs);
+                    let off = trace::error_text(ulps, root.precision, glyphs);
                     writeln!(out, "{name} = {value}, {off} from {exact}")
                 }
                 None => writeln!(out, "{name} = {value}, but there is no such root"),
@@ -88,7 +89,7 @@ fn write_answer(out: &mut String, trace: &Trace, signs: Signs) -> fmt::Result {
                 out,
                 "{}: the ray sees it at t = {}",
                 place.name(),
-                binary32(t, signs)
+                binary32(t, glyphs)
             )?;
         }
         (Some(place), None) => {
@@ -96,7 +97,7 @@ fn write_answer(out: &mut String, trace: &Trace, signs: Signs) -> fmt::Result {
         }
         (None, _) => {}
     }
-    match trace.verdict(signs) {
+    match trace.verdict(glyphs) {
         Some(verdict) => writeln!(out, "WRONG: {verdict}"),
         None => Ok(()),
     }

@@ -9,12 +9,12 @@ mod seen;
 
 use glam::Vec3;
 
-use super::{Digits, Glyphs, Reading, Subject, number, vector};
-use crate::method::format::Signs;
+use super::{Digits, Reading, Subject, number, vector};
 use crate::method::trace::{self, Measured, Quantity, Trace};
 use crate::method::{Class, Method, Place, Precision};
 use crate::render::{Frame, Image, Style, View};
 use crate::scene::{Rays, Scene};
+use crate::text::Glyphs;
 
 /// What the picture made of a pixel.
 #[derive(Debug, Clone, PartialEq)]
@@ -224,13 +224,13 @@ impl Step {
 /// The steps of the method itself, as it traced them.
 fn quadratic_steps(trace: &Trace) -> Vec<Step> {
     let heavy = trace.first_heavy_loss();
-    let signs = Signs::Typographic;
+    let glyphs = Glyphs::Unicode;
     let step = |(at, step): (usize, &trace::Step)| Step {
         numbers: step.numbers.clone(),
-        result: step.result.text(signs),
+        result: step.result.text(glyphs),
         code: step.code.into(),
         exact: exact(&step.result),
-        losses: step.losses.iter().map(|l| l.sentence(signs)).collect(),
+        losses: step.losses.iter().map(|l| l.sentence(glyphs)).collect(),
         first_heavy: heavy == Some(at),
         question: is_discriminant(step.symbol, trace.method).then_some(Question::Sign),
         // A later stage of `exact` says what it has settled.
@@ -243,12 +243,12 @@ fn quadratic_steps(trace: &Trace) -> Vec<Step> {
 
 /// What a result would be without rounding, and how far off it is; nothing if it is right.
 fn exact(result: &Quantity) -> Option<String> {
-    let signs = Signs::Typographic;
+    let glyphs = Glyphs::Unicode;
     let ulps = result.ulps().filter(|&ulps| ulps != 0.0)?;
-    let exact = result.exact_text(12, signs)?;
+    let exact = result.exact_text(12, glyphs)?;
     Some(format!(
         "{exact}, {} off",
-        trace::error_text(ulps, result.precision(), signs)
+        trace::error_text(ulps, result.precision(), glyphs)
     ))
 }
 

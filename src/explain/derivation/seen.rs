@@ -4,11 +4,11 @@ use glam::{DVec3, Vec3};
 
 use super::{Drawn, Question, Step, bracketed, exact, n32, n64, v3};
 use crate::explain::{Digits, Reading, Sight, Subject, number};
-use crate::method::format::Signs;
 use crate::method::trace::{Measured, Quantity};
 use crate::method::{Class, Method, Place, Precision, Surd};
 use crate::render::{AMBIENT, RAMP, Style, View};
 use crate::scene::{Light, Scene};
+use crate::text::Glyphs;
 
 pub(super) fn steps(
     reading: &Reading,
@@ -45,13 +45,9 @@ pub(super) fn count_step(subject: &Subject) -> Step {
     };
     let discriminant = &subject.trace.discriminant;
     Step {
-        numbers: format!("Δ = {}", discriminant.shortest(Signs::Typographic)),
+        numbers: format!("Δ = {}", discriminant.shortest(Glyphs::Unicode)),
         result: result.into(),
-        losses: subject
-            .trace
-            .verdict(Signs::Typographic)
-            .into_iter()
-            .collect(),
+        losses: subject.trace.verdict(Glyphs::Unicode).into_iter().collect(),
         question: Some(Question::Count),
         code: code.into(),
         ..Step::plain(

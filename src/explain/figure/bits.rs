@@ -11,8 +11,9 @@
 use std::cmp::Ordering;
 
 use super::caption::{Caption, rounded};
-use crate::explain::{Digits, Glyphs, Line, Role, number};
+use crate::explain::{Digits, Line, Role, number};
 use crate::method::Precision;
+use crate::text::{self, Glyphs};
 
 /// A number in one of the two formats.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,23 +60,15 @@ impl Float {
     }
 
     /// Hexadecimal notation, in which no bit is rounded: `0x1.2cp8` is (1 + 0x2c/256)·2⁸.
-    pub fn hexadecimal(self) -> String {
-        let value = self.widened();
-        if !value.is_finite() {
+    fn hexadecimal(self) -> String {
+        if !self.widened().is_finite() {
             return self.decimal(true);
         }
-        let fields = self.fields();
-        let sign = if fields.negative() { "-" } else { "" };
-        if value == 0.0 {
-            return format!("{sign}0x0p0");
-        }
-        let nibbles = fields.fraction_bits.div_ceil(4);
-        let shifted = fields.fraction() << (4 * nibbles - fields.fraction_bits);
-        let digits = format!("{shifted:0width$x}", width = nibbles as usize);
-        let digits = digits.trim_end_matches('0');
-        let point = if digits.is_empty() { "" } else { "." };
-        let lead = u8::from(!fields.is_subnormal());
-        format!("{sign}0x{lead}{point}{digits}p{}", fields.power())
+        let written = match self {
+            Self::Single(x) => text::hexadecimal(x),
+            Self::Double(x) => text::hexadecimal_binary64(x),
+        };
+        written.replace("p+", "p")
     }
 
     /// The shortest decimal that tells the number from all others of its format, or of binary64.

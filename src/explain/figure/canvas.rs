@@ -3,7 +3,8 @@
 //! Coordinates are dots from the top left corner, also in ASCII, where 2 × 4 of them share one
 //! character: a dot is then as high as it is wide, since cells are twice as high as wide.
 
-use crate::explain::{Glyphs, Line, Role};
+use crate::explain::{Line, Role};
+use crate::text::Glyphs;
 
 /// What a mark in a figure stands for. Of two that share a cell, the later one in this list shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

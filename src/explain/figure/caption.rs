@@ -1,8 +1,9 @@
 //! The lines under a figure: what its letters stand for, in numbers.
 
 use super::section::Section;
-use crate::explain::{Digits, Glyphs, Line, Role, Subject, number};
+use crate::explain::{Digits, Line, Role, Subject, number};
 use crate::method::Precision;
+use crate::text::Glyphs;
 
 /// Entries in the order of their weight, each a few words with roles.
 #[derive(Debug)]

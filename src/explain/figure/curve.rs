@@ -13,11 +13,11 @@ use super::canvas::{Canvas, Dash, Ink};
 use super::caption::{Caption, caption_of, caption_room, rounded, show, times};
 use super::mark::{Mark, Sign};
 use super::section::{Anchor, Section, Spot};
-use crate::explain::{Glyphs, Line, Role, Subject};
+use crate::explain::{Line, Role, Subject};
 use crate::geometry::Ray;
 use crate::method::Class;
-use crate::method::format::Signs;
 use crate::method::trace::error_text;
+use crate::text::Glyphs;
 
 /// The curve f(t) with its roots and its vertex, t = 0, and the value at `t`.
 ///
@@ -399,7 +399,7 @@ fn not_zero(subject: &Subject, t: f64) -> Option<String> {
     } else {
         let off = root.ulps().map_or_else(
             || "none".to_owned(),
-            |ulps| error_text(ulps, root.precision, Signs::Typographic) + " off",
+            |ulps| error_text(ulps, root.precision, Glyphs::Unicode) + " off",
         );
         format!("not 0: the root by {} is {off}", trace.method)
     })

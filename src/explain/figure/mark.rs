@@ -1,7 +1,7 @@
 //! Points of a figure with their names.
 
 use super::canvas::{Canvas, Dot, Ink};
-use crate::explain::Glyphs;
+use crate::text::Glyphs;
 
 /// A named point.
 #[derive(Debug, Clone)]

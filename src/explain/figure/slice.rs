@@ -15,9 +15,10 @@ use super::caption::{Caption, caption_of, caption_room, rounded, show, times};
 use super::mark::{Mark, Sign};
 use super::section::{Anchor, Section, Spot};
 use super::view::View;
-use crate::explain::{Digits, Glyphs, Line, Role, Subject, vector};
+use crate::explain::{Digits, Line, Role, Subject, vector};
 use crate::geometry::Ray;
 use crate::method::Class;
+use crate::text::Glyphs;
 
 /// The plane through `ray` and the centre of the subject's sphere, with the point p = t·d + p0.
 ///

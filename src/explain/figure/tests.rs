@@ -5,8 +5,9 @@ use unicode_width::UnicodeWidthStr;
 
 use super::cases::{NAMES, aimed, named, whole, wild};
 use super::{curve, slice};
-use crate::explain::{Glyphs, Line, Subject, plain_text};
+use crate::explain::{Line, Subject, plain_text};
 use crate::geometry::Ray;
+use crate::text::Glyphs;
 
 type Figure = fn(&Subject, &Ray, f64, usize, usize, Glyphs) -> Vec<Line>;
 

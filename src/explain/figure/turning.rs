@@ -10,7 +10,8 @@
 //! ```
 
 use super::canvas::{Canvas, Dash, Dot, Ink};
-use crate::explain::{Glyphs, Line};
+use crate::explain::Line;
+use crate::text::Glyphs;
 
 /// What one setting of a dial does to a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]

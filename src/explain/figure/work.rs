@@ -12,9 +12,10 @@
 //! ```
 
 use super::canvas::{Canvas, Dash, Dot, Ink};
-use crate::explain::{self, Glyphs, Line, Role};
+use crate::explain::{Line, Role};
 use crate::lab::bench::text::{brief, settled_by};
 use crate::lab::bench::{Chapter, Row};
+use crate::text::{self, Glyphs};
 
 /// The lowest chart that says more than its table.
 const LEAST_ROWS: usize = 7;
@@ -158,7 +159,7 @@ fn table(chapter: &Chapter, cols: usize) -> Vec<Line> {
 /// Which stages of `exact` settled how many of the questions.
 fn stages(chapter: &Chapter, cols: usize) -> Vec<Line> {
     let settled = chapter.rows.iter().filter_map(settled_by);
-    let lines = settled.flat_map(|text| explain::wrap(&text, cols));
+    let lines = settled.flat_map(|text| text::wrap(&text, cols));
     lines.map(|text| Line::of(Role::Faint, text)).collect()
 }
 

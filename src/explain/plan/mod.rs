@@ -5,7 +5,7 @@ mod reasons;
 use std::fmt::Write as _;
 
 use super::panel::{Line, Role};
-use super::wrap;
+use crate::text::wrap;
 
 pub use reasons::{PlanLine, plan_lines, plan_sentence};
 

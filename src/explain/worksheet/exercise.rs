@@ -4,10 +4,10 @@ use super::super::{Digits, number};
 use super::decimal::{Answer, Decimal, rounded, rounded_to};
 use super::question::{Answers, Question};
 use super::{Candidate, Kind};
-use crate::method::format::Signs;
 use crate::method::trace::Measured;
 use crate::method::{Class, Method, Place, Precision};
 use crate::scene::Scene;
+use crate::text::Glyphs;
 
 /// One exercise.
 #[derive(Debug, Clone)]
@@ -374,7 +374,7 @@ fn rounding(scene: &Scene, candidate: &Candidate) -> Option<(u32, Exercise)> {
     let part = |symbol| trace.step(symbol)?.result.parts().first();
     let [squared, product] = [part("B²")?, part("4AC")?];
     let ulp = spacing(squared.value)?;
-    let exact = |m: &Measured| m.exact_text(12, Signs::Typographic);
+    let exact = |m: &Measured| m.exact_text(12, Glyphs::Unicode);
     let right = trace.discriminant.exact.as_ref()?.to_f64();
     let said = trace.discriminant.value;
     let verdict = |class| match class {

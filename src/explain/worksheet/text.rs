@@ -1,8 +1,8 @@
 //! A worksheet on paper: as plain text, or as Markdown.
 
-use super::super::wrap;
 use super::Worksheet;
 use super::exercise::Exercise;
+use crate::text::wrap;
 
 /// Which part of a worksheet is printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

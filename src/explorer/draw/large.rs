@@ -3,9 +3,9 @@
 use font8x8::{BASIC_FONTS, GREEK_FONTS, LATIN_FONTS, UnicodeFonts};
 use ratatui::layout::Rect;
 
-use crate::explain::{Glyphs, wrap};
 use crate::explorer::draw::pen::Pen;
 use crate::explorer::draw::theme::Theme;
+use crate::text::{Glyphs, wrap};
 
 /// A letter is a square of so many dots.
 const DOTS: u16 = 8;

@@ -5,8 +5,9 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::Style as CellStyle;
 use unicode_width::UnicodeWidthStr;
 
-use crate::explain::{Glyphs, Line, Role, Span};
+use crate::explain::{Line, Role, Span};
 use crate::explorer::draw::theme::Theme;
+use crate::text::Glyphs;
 
 /// Writes text into cells: cut at the edge, spelt in the characters that there are.
 pub(crate) struct Pen<'a> {

@@ -2,13 +2,14 @@
 
 use ratatui::layout::Rect;
 
-use crate::explain::{Drawn, Glyphs, Reading, Step, derivation};
+use crate::explain::{Drawn, Reading, Step, derivation};
 use crate::explorer::arrival;
 use crate::explorer::draw::layout;
 use crate::explorer::{Explorer, Options};
 use crate::method::Method;
 use crate::render::{Frame, Image, Look, View, fit};
 use crate::scene::{PixelShape, Rays, Scene, Size};
+use crate::text::Glyphs;
 
 /// The picture on the screen, and what it was made from.
 #[derive(Debug)]

@@ -5,7 +5,7 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::{Color, Style as CellStyle};
 use unicode_width::UnicodeWidthStr;
 
-use crate::explain::{self, Digits, Glyphs, number};
+use crate::explain::{self, Digits, number};
 use crate::explorer::action::{Action, FOOTER, Group};
 use crate::explorer::command::WITH_ARGUMENT;
 use crate::explorer::draw::layout::{self, LEAST};
@@ -18,6 +18,7 @@ use crate::geometry::Decimal;
 use crate::lab::CaseForm;
 use crate::method::{Place, Precision};
 use crate::render::{Cell, Style};
+use crate::text::{self, Glyphs};
 
 /// What a cell shows while what it tells is to be predicted.
 const VEILED: Cell = Cell {
@@ -410,7 +411,7 @@ impl Explorer {
 fn too_small(pen: &mut Pen<'_>, area: Rect) {
     let (cols, rows) = LEAST;
     let sentence = format!("rayscope needs {cols} columns and {rows} rows; q quits");
-    for (y, line) in (area.top()..area.bottom()).zip(explain::wrap(&sentence, area.width.into())) {
+    for (y, line) in (area.top()..area.bottom()).zip(text::wrap(&sentence, area.width.into())) {
         pen.text(area.x, y, area.width, &line, CellStyle::new());
     }
 }
@@ -418,7 +419,7 @@ fn too_small(pen: &mut Pen<'_>, area: Rect) {
 /// A message over the footer; one that is too long for a line covers the lines above.
 fn draw_message(pen: &mut Pen<'_>, footer: Rect, text: &str, style: CellStyle) {
     let room = footer.width.saturating_sub(2);
-    let lines = explain::wrap(&pen.glyphs.spell(text), room.into());
+    let lines = text::wrap(&pen.glyphs.spell(text), room.into());
     let count = (lines.len() as u16).min(footer.y);
     let top = footer.bottom() - count;
     for (y, line) in (top..footer.bottom()).zip(&lines) {
@@ -509,7 +510,7 @@ impl Explorer {
 fn draw_case(pen: &mut Pen<'_>, area: Rect, form: CaseForm, lines: &[String]) {
     let title = format!("Copied, where the terminal allows it: {}", form.title());
     let mut y = area.y;
-    for line in explain::wrap(&title, area.width.into()) {
+    for line in text::wrap(&title, area.width.into()) {
         pen.text(area.x, y, area.width, &line, Theme::strong());
         y += 1;
     }

@@ -1,8 +1,8 @@
 //! The numbers that a person can type: each of the selected sphere and of the camera.
 
 use crate::geometry::{Decimal, Invalid, Sphere};
-use crate::method::read;
 use crate::scene::{Camera, Projection, Scene};
+use crate::text::read;
 
 use crate::explorer::edit::document::Change;
 

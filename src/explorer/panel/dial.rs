@@ -14,6 +14,7 @@ use crate::lab::{Dial, Turn};
 use crate::method::Method;
 use crate::render::Style;
 use crate::scene::{PixelShape, Rays, Size};
+use crate::text;
 
 /// The dial that was chosen, and what it has shown so far.
 #[derive(Debug)]
@@ -257,7 +258,7 @@ impl Explorer {
         let (now, method) = (self.setting(), self.options.method);
         let mut lines = Vec::new();
         let mut say = |role: Role, text: &str| {
-            let wrapped = explain::wrap(text, cols).into_iter();
+            let wrapped = text::wrap(text, cols).into_iter();
             lines.extend(wrapped.map(|line| Line::of(role, line)));
         };
         match now {

@@ -10,6 +10,7 @@ use crate::explorer::draw::pen::Pen;
 use crate::explorer::draw::theme::Theme;
 use crate::explorer::panel::Panel;
 use crate::explorer::panel::steps::Prediction;
+use crate::text;
 
 impl Explorer {
     /// Shows a panel. Where it takes the picture's place, the same key brings the picture back.
@@ -190,7 +191,7 @@ impl Explorer {
         let words = "Hidden while you predict: the answers are here. 2 goes on with the steps, \
                      P shows everything again.";
         (tells && self.is_predicting()).then(|| {
-            let lines = explain::wrap(words, width).into_iter();
+            let lines = text::wrap(words, width).into_iter();
             (panel.name().into(), lines.map(Line::plain).collect())
         })
     }
@@ -313,7 +314,7 @@ impl Explorer {
         ];
         let mut y = y + 1;
         for (text, style) in small.into_iter().filter(|(text, _)| !text.is_empty()) {
-            for line in explain::wrap(text, room.width.into()) {
+            for line in text::wrap(text, room.width.into()) {
                 if y < room.bottom() {
                     pen.text(room.x, y, room.width, &line, style);
                     y += 1;

@@ -10,13 +10,14 @@ use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
 use std::thread;
 use std::time::Duration;
 
-use crate::explain::{self, Line, Role};
+use crate::explain::{Line, Role};
 use crate::explorer::Explorer;
 use crate::explorer::panel::Panel;
 use crate::lab::bench::Report;
 use crate::lab::picture::{NoChart, chart};
 use crate::lab::timing::SelfCheck;
 use crate::scene::{Rays, Scene};
+use crate::text;
 
 /// Wakes whoever waits for input, from any thread; nobody, if nobody is set.
 #[derive(Clone, Default)]
@@ -156,7 +157,7 @@ impl Measuring {
             None => {}
         }
         let lines = |(role, text): &(Role, String)| {
-            let lines = explain::wrap(text, width).into_iter();
+            let lines = text::wrap(text, width).into_iter();
             lines.map(|line| Line::of(*role, line)).collect::<Vec<_>>()
         };
         remarks.iter().flat_map(lines).collect()

@@ -15,7 +15,6 @@ use ratatui::layout::Rect;
 use ratatui::style::Style as CellStyle;
 use unicode_width::UnicodeWidthStr;
 
-use crate::explain::wrap;
 use crate::explorer::arrival::{Arrival, Target};
 use crate::explorer::draw::layout;
 use crate::explorer::draw::pen::Pen;
@@ -32,6 +31,7 @@ use crate::explorer::{Explorer, Options};
 use crate::method::Method;
 use crate::render::Style;
 use crate::scene::{Scene, Size};
+use crate::text::wrap;
 
 pub use chapter::{Chapter, Page, builtin, find, load};
 

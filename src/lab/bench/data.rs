@@ -5,10 +5,11 @@ use serde_json::{Map, Value};
 
 use super::{Chapter, Report, Row};
 use crate::lab::errors::{Census, Percentiles, Worst, Wrong};
-use crate::lab::hexadecimal::{hexadecimal, numbers};
 use crate::lab::machine::Machine;
+use crate::lab::numbers;
 use crate::lab::timing::{Nanoseconds, SelfCheck};
 use crate::method::exact::Stage;
+use crate::text::hexadecimal;
 
 #[derive(Serialize)]
 struct Document<'a> {

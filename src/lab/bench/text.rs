@@ -4,10 +4,11 @@ use std::fmt::Write as _;
 
 use super::{Chapter, Report, Row};
 use crate::lab::errors::{Census, Errors, Fault, Worst};
-use crate::lab::hexadecimal::{hexadecimal, numbers};
 use crate::lab::machine::Machine;
+use crate::lab::numbers;
 use crate::lab::timing::{Nanoseconds, Times};
 use crate::method::exact::Stage;
+use crate::text::{hexadecimal, paragraph};
 
 /// A number with about three digits: enough to compare, short enough for a column.
 pub(crate) fn brief(x: f64) -> String {
@@ -55,16 +56,16 @@ fn header(report: &Report, machine: &Machine) -> String {
         format!("{cpu}, {threads} threads, {target}"),
         format!("{compiler}, {flags}"),
     ]
-    .map(|line| wrapped(&line))
+    .map(|line| paragraph(&line))
     .concat()
 }
 
 fn section(chapter: &Chapter, worst: bool) -> String {
-    let mut out = wrapped(&format!("{}: {}", chapter.name, chapter.about));
+    let mut out = paragraph(&format!("{}: {}", chapter.name, chapter.about));
     out += &errors(chapter);
     out += &times(chapter);
     for row in &chapter.rows {
-        out += &settled_by(row).map_or(String::new(), |text| wrapped(&format!("  {text}")));
+        out += &settled_by(row).map_or(String::new(), |text| paragraph(&format!("  {text}")));
     }
     for row in chapter.rows.iter().filter(|_| worst) {
         out += &row
@@ -176,7 +177,7 @@ pub(crate) fn percent(part: usize, all: usize) -> String {
 fn largest(method: &str, worst: &Worst) -> String {
     let error = worst.error;
     let [ox, oy, oz, dx, dy, dz, cx, cy, cz, r] = numbers(&worst.problem).map(hexadecimal);
-    wrapped(&format!(
+    paragraph(&format!(
         "  {method}: largest {} ulp, {} for {} at p0 {ox} {oy} {oz} d {dx} {dy} {dz} \
          c {cx} {cy} {cz} r {r}",
         brief(error.ulps),
@@ -203,28 +204,6 @@ fn footer(report: &Report) -> String {
     let trusted = report.times_trusted();
     let _ = writeln!(out, "times_trusted: {trusted}");
     out
-}
-
-/// The text on lines of at most 80 columns, the later ones indented.
-pub(crate) fn wrapped(text: &str) -> String {
-    let indent = text.len() - text.trim_start().len();
-    let mut out = " ".repeat(indent);
-    let mut column = indent;
-    for word in text.split_whitespace() {
-        let width = word.chars().count();
-        if column > indent {
-            if column + 1 + width > 80 {
-                column = indent + 2;
-                let _ = write!(out, "\n{}", " ".repeat(column));
-            } else {
-                out.push(' ');
-                column += 1;
-            }
-        }
-        out += word;
-        column += width;
-    }
-    out + "\n"
 }
 
 /// The report in Markdown: overviews of errors and times; for each set a table of errors, which are the same
@@ -362,16 +341,5 @@ mod tests {
         assert_eq!(percent(16_383, 16_384), "99.994 %");
         assert_eq!(percent(1, 16_384), "0.006 %");
         assert_eq!(percent(0, 0), "0.0 %");
-    }
-
-    #[test]
-    fn long_lines_are_wrapped_within_eighty_columns() {
-        let text = wrapped(&format!("  {}", "words ".repeat(40)));
-        assert!(text.lines().count() > 2);
-        assert!(
-            text.lines().all(
-                |line| line.len() <= 80 && line.starts_with("  w") || line.starts_with("    w")
-            )
-        );
     }
 }

@@ -7,12 +7,13 @@ use serde::Serialize;
 use super::{Report, Row};
 use crate::lab::machine::Machine;
 use crate::method::Method;
+use crate::text::wrap;
 
 /// The report as tables of 80 columns.
 pub fn table(report: &Report, machine: &Machine) -> String {
     let mut out = String::new();
     for line in preface(report, machine) {
-        out += &wrapped(&line);
+        out += &(wrap(&line, 80).join("\n") + "\n");
     }
     out += "\nmilliseconds of a frame\n";
     out += &in_columns(&TIMES, &report.rows, times);
@@ -20,7 +21,7 @@ pub fn table(report: &Report, machine: &Machine) -> String {
     out += &in_columns(&PARTS, &report.rows, parts);
     out.push('\n');
     for line in remarks(report) {
-        out += &wrapped(&line);
+        out += &(wrap(&line, 80).join("\n") + "\n");
     }
     out
 }
@@ -179,25 +180,6 @@ fn brief(ms: f64) -> String {
         _ => 5,
     };
     format!("{ms:.decimals$}")
-}
-
-fn wrapped(line: &str) -> String {
-    let mut out = String::new();
-    let mut room = 80;
-    for word in line.split_whitespace() {
-        let length = word.chars().count();
-        if room < 80 && length + 1 > room {
-            out.push('\n');
-            room = 80;
-        }
-        if room < 80 {
-            out.push(' ');
-            room -= 1;
-        }
-        out += word;
-        room = room.saturating_sub(length);
-    }
-    out + "\n"
 }
 
 /// A row as programs read it.

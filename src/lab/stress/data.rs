@@ -6,7 +6,8 @@ use super::theory::agree;
 use super::{Cell, Report};
 use crate::lab::Problem;
 use crate::lab::errors::{Percentiles, Wrong};
-use crate::lab::hexadecimal::{hexadecimal, numbers};
+use crate::lab::numbers;
+use crate::text::hexadecimal;
 
 #[derive(Serialize)]
 struct Document {

@@ -4,12 +4,12 @@ use std::fmt::Write as _;
 
 use super::theory::{AGREEMENT, agree};
 use super::{Cell, Check, Inputs, Report, Step, Sweep, bits_lost, invariance};
-use crate::lab::bench::text::wrapped;
-use crate::lab::hexadecimal::{hexadecimal, numbers};
+use crate::lab::numbers;
+use crate::text::{hexadecimal, paragraph};
 
 /// The report as tables of 80 columns: of each dial at most `ROWS` settings, the summary last.
 pub fn table(report: &Report) -> String {
-    let mut out = wrapped(&format!(
+    let mut out = paragraph(&format!(
         "rayscope {} stress, seed {}, {} rays a setting, checksum of all answers {}",
         env!("CARGO_PKG_VERSION"),
         report.seed,
@@ -18,7 +18,7 @@ pub fn table(report: &Report) -> String {
     ));
     for sweep in &report.sweeps {
         out.push('\n');
-        out += &wrapped(&format!("{}: {}", sweep.dial.name, sweep.dial.about));
+        out += &paragraph(&format!("{}: {}", sweep.dial.name, sweep.dial.about));
         out += &grid(
             report,
             sweep,
@@ -231,7 +231,7 @@ fn promises(report: &Report) -> String {
         );
         if let Some(problem) = &kept.first {
             let input = numbers(problem).map(hexadecimal).join(" ");
-            out += &wrapped(&format!("  the first: {input}"));
+            out += &paragraph(&format!("  the first: {input}"));
         }
     }
     if !report.complete {

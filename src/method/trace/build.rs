@@ -6,10 +6,11 @@ use std::collections::HashMap;
 use super::loss::{self, Loss};
 use super::{Measured, Quantity, Step};
 use crate::method::Precision;
-use crate::method::format::{Shortest, Signs};
+use crate::method::format::Shortest;
 use crate::method::number::Input;
 use crate::method::surd::Surd;
 use crate::method::tape::{Float, Operand, Tape, Traced};
+use crate::text::Glyphs;
 
 /// What a step says of itself, the numbers apart.
 #[derive(Debug, Clone, Copy)]
@@ -266,11 +267,11 @@ fn text<F: Float>(value: Traced<'_, F>) -> String {
 }
 
 fn number<F: Float>(value: f64) -> String {
-    let (precision, signs) = (F::PRECISION, Signs::Typographic);
+    let (precision, glyphs) = (F::PRECISION, Glyphs::Unicode);
     Shortest {
         value,
         precision,
-        signs,
+        glyphs,
     }
     .to_string()
 }

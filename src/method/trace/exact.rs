@@ -7,13 +7,14 @@ use crate::geometry::{Ray, Sphere};
 use crate::method::Precision;
 use crate::method::dyadic::Dyadic;
 use crate::method::exact::{self, Bounded, Direct, Discriminant, Findings, Record, Stage};
-use crate::method::format::{Shortest, Signs, binary32, binary64};
+use crate::method::format::{Shortest, binary32, binary64};
 use crate::method::surd::Surd;
 use crate::method::tape::Operation;
 use crate::method::truth::Truth;
+use crate::text::Glyphs;
 
 /// Steps keep their numbers in print; whoever shows them spells them.
-const SIGNS: Signs = Signs::Typographic;
+const GLYPHS: Glyphs = Glyphs::Unicode;
 
 /// The steps of stage 1, a step for each stage that was asked after it, and the answer.
 pub(in crate::method) fn steps(ray: &Ray, sphere: &Sphere, truth: &Truth) -> Vec<Step> {
@@ -41,8 +42,11 @@ fn discriminant_steps(ray: &Ray, sphere: &Sphere, truth: &Truth, record: &Record
     let exact_ar2 = &truth.a * &Dyadic::from(sphere.radius).squared();
     let exact_k2 = &exact_ar2 - &truth.quarter_discriminant;
     let [p0, d_text, c] = [ray.origin, ray.direction, sphere.center].map(vector);
-    let [x, y, z] = ray.direction.to_array().map(|x| factor(binary32(x, SIGNS)));
-    let r = binary32(sphere.radius, SIGNS);
+    let [x, y, z] = ray
+        .direction
+        .to_array()
+        .map(|x| factor(binary32(x, GLYPHS)));
+    let r = binary32(sphere.radius, GLYPHS);
     let o_text = format!("({}, {}, {})", text(o[0]), text(o[1]), text(o[2]));
     vec![
         Step {
@@ -133,10 +137,13 @@ fn root_steps(
     discriminant: &Discriminant<f64>,
     direct: &Direct<f64>,
 ) -> [Step; 4] {
-    let d = ray.direction.to_array().map(|x| factor(binary32(x, SIGNS)));
-    let [x, y, z] = discriminant.o.map(|x| factor(binary64(x, SIGNS)));
+    let d = ray
+        .direction
+        .to_array()
+        .map(|x| factor(binary32(x, GLYPHS)));
+    let [x, y, z] = discriminant.o.map(|x| factor(binary64(x, GLYPHS)));
     let root_d = Surd::from(truth.quarter_discriminant.clone()).checked_sqrt();
-    let b = factor(binary64(direct.half_b, SIGNS));
+    let b = factor(binary64(direct.half_b, GLYPHS));
     let [s, a] = [direct.s, discriminant.a].map(text);
     let minus_b = measured(-direct.half_b, Some((-truth.half_b.clone()).into()));
     let root_of_d = measured(direct.s, root_d.clone());
@@ -244,7 +251,7 @@ fn stage_step(truth: &Truth, record: &Record, found: &Findings) -> Step {
         (_, None) => (record.discriminant.d, &truth.quarter_discriminant),
     };
     let known = |root: Option<f32>, by: Option<Stage>| match root {
-        Some(t) => binary32(t, SIGNS).to_string(),
+        Some(t) => binary32(t, GLYPHS).to_string(),
         None if by.is_some_and(|by| by < found.stage) => "known".to_owned(),
         None => "open".to_owned(),
     };
@@ -324,7 +331,7 @@ fn measured(value: f64, exact: Option<Surd>) -> Measured {
 }
 
 fn text(value: f64) -> String {
-    binary64(value, SIGNS).to_string()
+    binary64(value, GLYPHS).to_string()
 }
 
 /// A number in a product or under a square: in parentheses if it has a sign.
@@ -338,6 +345,6 @@ fn factor(number: Shortest) -> String {
 }
 
 fn vector(v: glam::Vec3) -> String {
-    let [x, y, z] = v.to_array().map(|x| binary32(x, SIGNS));
+    let [x, y, z] = v.to_array().map(|x| binary32(x, GLYPHS));
     format!("({x}, {y}, {z})")
 }

@@ -3,9 +3,9 @@
 
 use crate::method::Precision;
 use crate::method::dyadic::Dyadic;
-use crate::method::format::Signs;
 use crate::method::surd::Surd;
 use crate::method::tape::{Entry, Operation};
+use crate::text::Glyphs;
 
 /// A loss of one operation.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -57,8 +57,8 @@ impl Loss {
     }
 
     /// The loss in words.
-    pub fn sentence(&self, signs: Signs) -> String {
-        let [x, y] = self.operands.each_ref().map(|o| signs.spell(o));
+    pub fn sentence(&self, glyphs: Glyphs) -> String {
+        let [x, y] = self.operands.each_ref().map(|o| glyphs.spell(o));
         let of = self.of;
         match self.kind {
             LossKind::Cancelled { bits } if bits >= of => {

@@ -1,0 +1,10 @@
+//! Text as people, programs and files write it: characters, numbers, lines.
+
+mod glyphs;
+mod hexadecimal;
+mod lines;
+pub mod read;
+
+pub use glyphs::Glyphs;
+pub use hexadecimal::{binary32 as hexadecimal, binary64 as hexadecimal_binary64};
+pub use lines::{paragraph, wrap};
