@@ -200,17 +200,15 @@ fn a_method_that_is_broken_on_purpose_is_caught_in_its_very_kind_of_fault() {
     assert_eq!(tangent.wrong.wrong_count, census.secant);
 
     for not_finite in [f32::NAN, f32::INFINITY] {
-        let lost = of(&|answer| Solution {
-            far: not_finite,
-            ..answer
-        });
+        let lost =
+            of(&|Solution { class, near, .. }| Solution::with_roots(class, near, not_finite));
         assert_eq!(lost.wrong.not_finite, census.meet(), "{not_finite}");
     }
 
-    let off = of(&|answer| Solution {
-        near: answer.near.next_up().next_up(),
-        ..answer
-    });
+    let off =
+        of(&|Solution {
+                 class, near, far, ..
+             }| { Solution::with_roots(class, near.next_up().next_up(), far) });
     assert!(off.ulp.p50 >= 1.5 && off.ulp.max <= 5.0, "{:?}", off.ulp);
     assert_ne!(off.checksum, right.checksum);
 }
@@ -226,15 +224,9 @@ fn a_rightly_infinite_root_is_neither_a_fault_nor_an_error() {
         "{exact:?}"
     );
     assert!(matches!(judge(&truth, &exact), Judgement::Agreed(Some(error)) if error.ulps <= 0.5));
-    let both = Solution {
-        near: f32::INFINITY,
-        ..exact
-    };
+    let both = Solution::with_roots(exact.class, f32::INFINITY, exact.far);
     assert_eq!(judge(&truth, &both), Judgement::Wrong(Fault::NotFinite));
-    let other_side = Solution {
-        far: f32::NEG_INFINITY,
-        ..exact
-    };
+    let other_side = Solution::with_roots(exact.class, exact.near, f32::NEG_INFINITY);
     assert_eq!(
         judge(&truth, &other_side),
         Judgement::Wrong(Fault::NotFinite)

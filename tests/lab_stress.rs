@@ -53,10 +53,8 @@ fn a_method_that_is_broken_on_purpose_is_caught() {
     assert_eq!(right.bits_worst(), Some(0.0));
 
     // 2⁻¹⁰ of the root is 2¹³ to 2¹⁴ ulp, and far more than κu.
-    let off = of(&|answer| Solution {
-        near: answer.near * (1.0 + 1.0 / 1024.0),
-        ..answer
-    });
+    let near = |answer: Solution, near| Solution::with_roots(answer.class, near, answer.far);
+    let off = of(&|answer| near(answer, answer.near * (1.0 + 1.0 / 1024.0)));
     assert_eq!(off.errors.wrong.total(), 0);
     assert!(
         (14.0..=15.1).contains(&off.bits_median().unwrap()),
@@ -69,10 +67,7 @@ fn a_method_that_is_broken_on_purpose_is_caught() {
         "a thousandth of the way is less than half a pixel"
     );
 
-    let far_off = of(&|answer| Solution {
-        near: answer.near * 1.1,
-        ..answer
-    });
+    let far_off = of(&|answer| near(answer, answer.near * 1.1));
     assert_eq!(
         far_off.moved, far_off.errors.judged,
         "a tenth of the way is more"
@@ -86,11 +81,7 @@ fn a_method_that_is_broken_on_purpose_is_caught() {
     assert_eq!(blind.bits_worst(), None);
 
     // A hit seen where there is none to see: behind the eye.
-    let behind = of(&|answer| Solution {
-        near: -2.0,
-        far: -1.0,
-        ..answer
-    });
+    let behind = of(&|answer| Solution::with_roots(answer.class, -2.0, -1.0));
     assert_eq!(behind.moved, behind.errors.judged);
 }
 

@@ -188,13 +188,8 @@ fn meetings(scene: &Scene, ray: &Ray, method: Method) -> Vec<Meeting> {
         .filter(|m| m.solution.class.meets())
         .collect();
     // A stable sort: of two spheres at equal t the first listed comes first, as in the picture.
-    meetings.sort_by(|m, n| {
-        let key = |m: &Meeting| m.solution.visible().unwrap_or(f32::INFINITY);
-        key(m).total_cmp(&key(n)).then_with(|| {
-            let hidden = |m: &Meeting| m.solution.visible().is_none();
-            hidden(m).cmp(&hidden(n))
-        })
-    });
+    let met = |m: &Meeting| (&scene.bodies[m.body].sphere, m.solution);
+    meetings.sort_by(|m, n| method.order(ray, met(m), met(n)));
     meetings
 }
 

@@ -472,7 +472,9 @@ fn clip(text: &str, room: usize) -> String {
 }
 
 fn verdict_lines(subject: &Subject, width: usize, digits: Digits) -> Vec<Line> {
-    let Solution { class, near, far } = subject.solution;
+    let Solution {
+        class, near, far, ..
+    } = subject.solution;
     let verdict = match class {
         Class::Miss => "Δ < 0  miss: no point in common",
         Class::Tangent => "Δ = 0  tangent: it touches",
@@ -596,7 +598,9 @@ fn meeting_lines(reading: &Reading, shown: usize, digits: Digits) -> Vec<Line> {
 const MOST_MEETINGS: usize = 100;
 
 fn meeting_line(meeting: &Meeting, shown: bool, spare: u8, digits: Digits) -> Line {
-    let Solution { class, near, far } = meeting.solution;
+    let Solution {
+        class, near, far, ..
+    } = meeting.solution;
     let digits = fewer(digits);
     let [near, far] = [near, far].map(|t| number(t.into(), Precision::Binary32, digits));
     // The words after the numbers stay where they are while those change.

@@ -31,11 +31,7 @@ impl Claim {
         } else {
             Class::Secant
         });
-        Solution {
-            class,
-            near: self.near,
-            far: self.far,
-        }
+        Solution::with_roots(class, self.near, self.far)
     }
 }
 

@@ -2,7 +2,7 @@
 //! are held against. The truth itself is [`crate::method::Truth`].
 
 use super::Problem;
-use crate::method::{Class, Precision, Solution, Surd, Truth};
+use crate::method::{Class, Precision, Solution, Surd, Truth, Which};
 
 /// The exact class and, unless it is a miss, both exact roots.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,6 +13,8 @@ pub struct Reference {
     pub quarter_discriminant: f64,
     /// The near and the far root.
     pub roots: Option<[Root; 2]>,
+    /// The class, where the sphere lies, and both roots rounded once to binary32.
+    pub solution: Solution,
 }
 
 /// An exact root, to more than a hundred bits.
@@ -37,6 +39,7 @@ impl Reference {
         let root = |root: Option<Surd>| root.map(|root| Root::new(&truth, &root));
         Self {
             class: truth.class(),
+            solution: truth.solution(),
             quarter_discriminant: Surd::from(truth.quarter_discriminant.clone()).to_f64(),
             roots: root(truth.near())
                 .zip(root(truth.far()))
@@ -65,19 +68,16 @@ impl Reference {
         class: Class::Miss,
         quarter_discriminant: f64::NEG_INFINITY,
         roots: None,
+        solution: Solution::MISS,
     };
 
-    /// The class, and both roots rounded once to binary32.
-    pub fn solution(&self) -> Solution {
-        match self.roots {
-            None => Solution::MISS,
-            Some([near, far]) => Solution::with_roots(self.class, near.rounded, far.rounded),
-        }
-    }
-
-    /// The root that is seen: the least t > 0 in binary32.
+    /// The root that is seen: the least t > 0.
     pub fn visible(&self) -> Option<&Root> {
-        self.roots.as_ref()?.iter().find(|root| root.rounded > 0.0)
+        let [near, far] = self.roots.as_ref()?;
+        Some(match self.solution.place()?.visible_root()? {
+            Which::Near => near,
+            Which::Far => far,
+        })
     }
 }
 

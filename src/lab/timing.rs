@@ -12,7 +12,7 @@ use super::numbers;
 use super::random::Random;
 use crate::geometry::{Ray, Sphere};
 use crate::method::batch::{Batch, Solutions};
-use crate::method::{Method, Solution};
+use crate::method::{Class, Method, Solution};
 
 /// Where times come from; a test brings a clock of its own.
 pub trait Clock {
@@ -156,11 +156,7 @@ impl Arrays {
 
 /// A routine that does nothing but hand on what it was given: the price of the loops.
 fn empty(ray: &Ray, sphere: &Sphere) -> Solution {
-    Solution {
-        near: ray.origin.x,
-        far: sphere.radius,
-        ..Solution::MISS
-    }
+    Solution::with_roots(Class::Miss, ray.origin.x, sphere.radius)
 }
 
 /// Nanoseconds for one solve, over the repeats of a run.

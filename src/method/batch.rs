@@ -13,9 +13,9 @@ use std::marker::PhantomData;
 use glam::Vec3;
 
 use super::exact::lanes::{self, Inputs, LANES};
-use super::exact::{self, Input};
+use super::exact::{self, Input, Stage};
 use super::simd::{self, Kernel};
-use super::{Class, Method, Solution, citardauq, double, haines, kahan, textbook};
+use super::{Class, Method, Place, Solution, citardauq, double, haines, kahan, textbook};
 use crate::geometry::{Ray, Sphere};
 
 /// A vector for each lane: three slices of equal length, or a [`Vec3`] that all lanes share.
@@ -176,6 +176,10 @@ pub struct Solutions {
     pub near: Vec<f32>,
     /// The larger root, NaN where there is none.
     pub far: Vec<f32>,
+    /// Where the sphere lies, if the line meets it.
+    place: Vec<Option<Place>>,
+    /// How many lanes each stage of `exact` settled, if it was asked.
+    pub stages: [u64; Stage::ALL.len()],
 }
 
 impl Solutions {
@@ -185,6 +189,7 @@ impl Solutions {
             class: self.class[i],
             near: self.near[i],
             far: self.far[i],
+            place: self.place[i],
         }
     }
 
@@ -193,6 +198,8 @@ impl Solutions {
         self.class.resize(n, Class::Miss);
         self.near.resize(n, f32::NAN);
         self.far.resize(n, f32::NAN);
+        self.place.resize(n, None);
+        self.stages = Default::default();
     }
 }
 
@@ -367,12 +374,14 @@ where
 {
     #[inline(always)]
     fn run(self) {
-        let Solutions { class, near, far } = self.out;
-        let out = class.iter_mut().zip(near).zip(far);
-        for (i, ((class, near), far)) in out.enumerate() {
+        let out = self.out;
+        let roots = out.near.iter_mut().zip(&mut out.far);
+        let out = out.class.iter_mut().zip(&mut out.place).zip(roots);
+        for (i, ((class, place), (near, far))) in out.enumerate() {
             let (ray, sphere) = self.batch.get(i);
             let solution = S::solve(&ray, &sphere);
-            (*class, *near, *far) = (solution.class, solution.near, solution.far);
+            (*class, *place) = (solution.class, solution.place);
+            (*near, *far) = (solution.near, solution.far);
         }
     }
 }
@@ -382,8 +391,8 @@ trait Answers {
     fn count(&self) -> usize;
     /// Fills in a block from lane `first` on, and marks the lanes that binary64 leaves open.
     fn fill(&mut self, first: usize, inputs: &impl Inputs) -> [bool; LANES];
-    /// Fills in lane i.
-    fn put(&mut self, i: usize, solution: Solution);
+    /// Fills in lane i, which that stage settled.
+    fn put(&mut self, i: usize, solution: Solution, settled_by: Stage);
 }
 
 impl Answers for &mut Solutions {
@@ -398,13 +407,25 @@ impl Answers for &mut Solutions {
         store(&mut self.class[first..], &block.class);
         store(&mut self.near[first..], &block.near);
         store(&mut self.far[first..], &block.far);
+        for (i, place) in self.place[first..].iter_mut().take(LANES).enumerate() {
+            let meets = block.class[i].meets();
+            *place = meets.then_some(Place::by_roots(block.near[i], block.far[i]));
+            let stage = if block.compensated[i] {
+                Stage::Compensated
+            } else {
+                Stage::Binary64
+            };
+            self.stages[stage as usize] += u64::from(!block.open[i]);
+        }
         block.open
     }
 
-    fn put(&mut self, i: usize, solution: Solution) {
+    fn put(&mut self, i: usize, solution: Solution, settled_by: Stage) {
         self.class[i] = solution.class;
         self.near[i] = solution.near;
         self.far[i] = solution.far;
+        self.place[i] = solution.place;
+        self.stages[settled_by as usize] += 1;
     }
 }
 
@@ -426,7 +447,7 @@ impl Answers for &mut [f32] {
         block.open
     }
 
-    fn put(&mut self, i: usize, solution: Solution) {
+    fn put(&mut self, i: usize, solution: Solution, _: Stage) {
         self[i] = solution.visible().unwrap_or(f32::NAN);
     }
 }
@@ -444,7 +465,7 @@ impl Answers for &mut [Class] {
         open
     }
 
-    fn put(&mut self, i: usize, solution: Solution) {
+    fn put(&mut self, i: usize, solution: Solution, _: Stage) {
         self[i] = solution.class;
     }
 }
@@ -503,6 +524,7 @@ fn set_aside<O: Vectors, D: Vectors, C: Vectors, R: Scalars>(
 ) {
     for (lane, _) in open.iter().enumerate().filter(|&(_, &open)| open) {
         let (ray, sphere) = batch.get(first + lane);
-        out.put(first + lane, exact::solve(&ray, &sphere));
+        let (solution, stages) = exact::solve_staged(&ray, &sphere);
+        out.put(first + lane, solution, stages.last());
     }
 }

@@ -12,6 +12,7 @@ pub mod format;
 mod haines;
 mod kahan;
 mod number;
+mod order;
 mod q_form;
 pub(crate) mod simd;
 mod surd;
@@ -25,6 +26,7 @@ pub use surd::{Digits, Surd};
 pub use trace::Trace;
 pub use truth::{Truth, bits_lost, root_bits_lost, ulp_error};
 
+use std::cmp::Ordering;
 use std::fmt;
 
 use crate::geometry::{Ray, Sphere};
@@ -171,6 +173,41 @@ impl fmt::Display for Class {
     }
 }
 
+/// One of the two roots.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Which {
+    /// The smaller.
+    Near,
+    /// The larger.
+    Far,
+}
+
+impl Which {
+    /// The sign that √D has in this root.
+    const fn sign(self) -> f32 {
+        match self {
+            Self::Near => -1.0,
+            Self::Far => 1.0,
+        }
+    }
+
+    /// How this root compares with m, by the signs of the slope Am + b and the value Am² + 2bm + C
+    /// there; none where the value is not known. The slope comes first: a value of 0 makes m this root
+    /// only on this root's side of the vertex.
+    fn compare(
+        self,
+        slope: Ordering,
+        value: impl FnOnce() -> Option<Ordering>,
+    ) -> Option<Ordering> {
+        match self {
+            Self::Near if slope.is_gt() => Some(Ordering::Less),
+            Self::Near => value(),
+            Self::Far if slope.is_lt() => Some(Ordering::Greater),
+            Self::Far => Some(value()?.reverse()),
+        }
+    }
+}
+
 /// Where a sphere lies that the line meets, seen from the ray's start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Place {
@@ -183,6 +220,27 @@ pub enum Place {
 }
 
 impl Place {
+    /// Where a sphere lies whose roots compare so with 0.
+    #[inline]
+    fn by_roots(near: f32, far: f32) -> Self {
+        if near > 0.0 {
+            Self::Hit
+        } else if far > 0.0 {
+            Self::Inside
+        } else {
+            Self::Behind
+        }
+    }
+
+    /// The visible root of a sphere that lies so: the least t > 0.
+    pub(crate) const fn visible_root(self) -> Option<Which> {
+        match self {
+            Self::Hit => Some(Which::Near),
+            Self::Inside => Some(Which::Far),
+            Self::Behind => None,
+        }
+    }
+
     /// The word on the screen and in files.
     pub const fn name(self) -> &'static str {
         match self {
@@ -202,6 +260,8 @@ pub struct Solution {
     pub near: f32,
     /// The larger root t; equal to `near` for a tangent.
     pub far: f32,
+    /// Where the sphere lies; a root that rounds to 0 need not be 0, so `exact` knows better than both.
+    place: Option<Place>,
 }
 
 impl Solution {
@@ -214,38 +274,39 @@ impl Solution {
             class,
             near: f32::NAN,
             far: f32::NAN,
+            place: None,
         }
     }
 
-    /// An answer with both roots; a root of −0 is given as the 0 it equals.
+    /// An answer with both roots, which also say where the sphere lies; a root of −0 is given as the 0
+    /// it equals.
+    #[inline]
     pub fn with_roots(class: Class, near: f32, far: f32) -> Self {
+        Self::placed(class, near, far, Place::by_roots(near, far))
+    }
+
+    /// An answer with both roots of a sphere that lies there.
+    #[inline]
+    fn placed(class: Class, near: f32, far: f32, place: Place) -> Self {
         Self {
             class,
             near: near + 0.0,
             far: far + 0.0,
+            place: class.meets().then_some(place),
         }
     }
 
     /// Where the sphere lies, or nothing if the line misses it.
-    pub fn place(&self) -> Option<Place> {
-        if !self.class.meets() {
-            None
-        } else if self.near > 0.0 {
-            Some(Place::Hit)
-        } else if self.far > 0.0 {
-            Some(Place::Inside)
-        } else {
-            Some(Place::Behind)
-        }
+    pub const fn place(&self) -> Option<Place> {
+        self.place
     }
 
     /// The visible root: the least t > 0.
     pub fn visible(&self) -> Option<f32> {
-        match self.place()? {
-            Place::Hit => Some(self.near),
-            Place::Inside => Some(self.far),
-            Place::Behind => None,
-        }
+        Some(match self.place?.visible_root()? {
+            Which::Near => self.near,
+            Which::Far => self.far,
+        })
     }
 }
 

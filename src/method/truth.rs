@@ -6,7 +6,7 @@ use std::cmp::Ordering;
 
 use super::dyadic::Dyadic;
 use super::surd::Surd;
-use super::{Class, Precision, Solution};
+use super::{Class, Place, Precision, Solution, Which};
 use crate::geometry::{Ray, Sphere};
 
 /// The quadratic of one ray and one sphere over the exact numbers that their binary32 stand for.
@@ -64,27 +64,46 @@ impl Truth {
 
     /// The smaller root, (−b − √D)/A; none for a miss.
     pub fn near(&self) -> Option<Surd> {
-        self.root(-1.0)
+        self.root(Which::Near)
     }
 
     /// The larger root, (−b + √D)/A; none for a miss.
     pub fn far(&self) -> Option<Surd> {
-        self.root(1.0)
+        self.root(Which::Far)
     }
 
-    fn root(&self, side: f32) -> Option<Surd> {
+    fn root(&self, which: Which) -> Option<Surd> {
         let d = self.quarter_discriminant.clone();
-        Surd::new(-self.half_b.clone(), side.into(), d, self.a.clone())
+        Surd::new(-self.half_b.clone(), which.sign().into(), d, self.a.clone())
     }
 
-    /// The class, and both roots rounded once to binary32.
+    /// The class, where the sphere lies, and both roots rounded once to binary32.
     pub fn solution(&self) -> Solution {
         match (self.near(), self.far()) {
             (Some(near), Some(far)) => {
-                Solution::with_roots(self.class(), near.to_f32(), far.to_f32())
+                let sign = |root: &Surd| f32::from(root.sign() as i8);
+                let place = Place::by_roots(sign(&near), sign(&far));
+                Solution::placed(self.class(), near.to_f32(), far.to_f32(), place)
             }
             _ => Solution::MISS,
         }
+    }
+
+    /// How a root of this quadratic compares with one of another sphere along the same ray.
+    ///
+    /// A is the same, so where this root t is, the other quadratic has the value 2(b′ − b)t + C′ − C and
+    /// the slope (b′ − b ± √D)/A: numbers with one square root, whose signs are known.
+    pub(super) fn compare(&self, root: Which, other: &Self, other_root: Which) -> Option<Ordering> {
+        let side = Dyadic::from(root.sign());
+        let (db, dc) = (&other.half_b - &self.half_b, &other.c - &self.c);
+        let x = &(&self.a * &dc) - &(&db * &self.half_b).shifted(1);
+        let y = (&db * &side).shifted(1);
+        let sign = |x, y| {
+            let n = self.quarter_discriminant.clone();
+            Some(Surd::new(x, y, n, Dyadic::from(1.0))?.sign())
+        };
+        let order = other_root.compare(sign(db, side)?, || sign(x, y))?;
+        Some(order.reverse())
     }
 
     /// κ = (|A|t² + |Bt| + |C|)/(|t|√Δ) at a root t: what rounding the coefficients may cost at

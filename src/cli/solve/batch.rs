@@ -270,7 +270,9 @@ impl Columns {
 
 /// Appends what a method says of one row, in the order of `OUTPUTS`.
 fn push_answers(text: &mut Vec<u8>, method: Method, ray: &Ray, sphere: &Sphere) -> io::Result<()> {
-    let Solution { class, near, far } = method.solve(ray, sphere);
+    let Solution {
+        class, near, far, ..
+    } = method.solve(ray, sphere);
     write!(text, ",{}", class.name())?;
     if class == Class::Miss {
         text.extend_from_slice(b",,");

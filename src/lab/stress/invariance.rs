@@ -135,11 +135,10 @@ fn keeps_length(method: Method, (ray, sphere): &Problem) -> bool {
 }
 
 fn times(answer: Solution, factor: f32) -> Solution {
-    Solution {
-        near: answer.near * factor,
-        far: answer.far * factor,
-        ..answer
-    }
+    let Solution {
+        class, near, far, ..
+    } = answer;
+    Solution::with_roots(class, near * factor, far * factor)
 }
 
 /// The same answer bit for bit.
@@ -150,7 +149,7 @@ fn same(one: &Solution, other: &Solution) -> bool {
 
 /// Whether class and place are those of the truth and the roots are numbers.
 fn is_defined(method: Method, problem: &Problem) -> bool {
-    let truth = Reference::new(problem).solution();
+    let truth = Reference::new(problem).solution;
     let answer = method.solve(&problem.0, &problem.1);
     let numbers = !answer.near.is_nan() && !answer.far.is_nan();
     let place: Option<Place> = answer.place();

@@ -30,6 +30,8 @@ pub struct Block {
     pub far: [f32; LANES],
     /// Whether the lane needs the stages beyond.
     pub open: [bool; LANES],
+    /// Whether it took the compensated C.
+    pub compensated: [bool; LANES],
 }
 
 /// Class and roots of the lanes of a block.
@@ -86,19 +88,27 @@ fn direct(inputs: &impl Inputs) -> Block {
         near,
         far,
         open: [false; LANES],
+        compensated: [false; LANES],
     };
     for i in 0..LANES {
         let miss = d[i] < -threshold[i];
         let secant = d[i] > threshold[i]
             && d_error[i] < limit[i]
             && near[i] == near_too[i]
-            && far[i] == far_too[i];
+            && far[i] == far_too[i]
+            && places(near[i], far[i]);
         block.open[i] = !(miss || secant);
         block.class[i] = if miss { Class::Miss } else { Class::Secant };
         block.near[i] = if miss { f32::NAN } else { near[i] };
         block.far[i] = if miss { f32::NAN } else { far[i] };
     }
     block
+}
+
+/// Whether two roots say where the sphere lies: of one that rounds to 0 the sign is not known.
+#[inline(always)]
+fn places(near: f32, far: f32) -> bool {
+    near != 0.0 && far != 0.0
 }
 
 /// Settles those of the open lanes that the compensated C can settle.
@@ -116,9 +126,13 @@ fn compensate(inputs: &impl Inputs, block: &mut Block) {
         [far[i], far_too[i]] = roots.far().ends().map(round);
     }
     for i in 0..LANES {
-        let secant = d[i] > threshold[i] && near[i] == near_too[i] && far[i] == far_too[i];
+        let secant = d[i] > threshold[i]
+            && near[i] == near_too[i]
+            && far[i] == far_too[i]
+            && places(near[i], far[i]);
         if block.open[i] && secant {
             block.open[i] = false;
+            block.compensated[i] = true;
             block.near[i] = near[i];
             block.far[i] = far[i];
         }

@@ -23,14 +23,14 @@ mod whole;
 use std::cmp::Ordering;
 use std::fmt;
 
-pub use binary64::{Bounded, Direct, Discriminant, Estimate};
+pub use binary64::{Bounded, Direct, Discriminant, Estimate, U};
 
-use super::{Class, Coefficients, Precision, Solution};
+use super::{Class, Coefficients, Place, Precision, Solution, Which};
 use crate::geometry::{Ray, Sphere};
 pub(super) use binary64::Input;
 use double_double::Doubled;
 use integer::Exact;
-use rounding::{Quadratic, Which};
+use rounding::Quadratic;
 use whole::Whole;
 
 /// The ways of `exact`, in the order in which they are tried.
@@ -157,7 +157,7 @@ pub fn solve(ray: &Ray, sphere: &Sphere) -> Solution {
         Some(class) => {
             let direct = binary64::direct(&input, &discriminant);
             if let [Some(near), Some(far)] = settled(&direct, &discriminant) {
-                return Solution { class, near, far };
+                return placed(&input, class, near, far);
             }
         }
         None => {}
@@ -190,15 +190,46 @@ pub fn record(ray: &Ray, sphere: &Sphere) -> Record {
     }
 }
 
+/// The answer with these roots. Rounding is monotone, so they say where the sphere lies, unless one of
+/// them rounds to 0.
+#[inline(always)]
+fn placed(input: &Input<f64>, class: Class, near: f32, far: f32) -> Solution {
+    let place = if near == 0.0 || far == 0.0 {
+        place(input)
+    } else {
+        Place::by_roots(near, far)
+    };
+    Solution::placed(class, near, far, place)
+}
+
+/// Where a sphere lies that the line meets, by exact signs: the roots have the product C/A and the sum
+/// −2b/A.
+#[cold]
+#[inline(never)]
+fn place(input: &Input<f64>) -> Place {
+    let Estimate { half_b, c, .. } = exact_estimate(input);
+    if c < 0.0 || (c == 0.0 && half_b < 0.0) {
+        Place::Inside
+    } else if half_b < 0.0 {
+        Place::Hit
+    } else {
+        Place::Behind
+    }
+}
+
+/// A, b, C and D, each the exact value rounded once to binary64, whose sign it has.
+fn exact_estimate(input: &Input<f64>) -> Estimate<f64> {
+    match Whole::of(input) {
+        Some(whole) => whole.estimate(),
+        None => Exact::new(input).estimate(),
+    }
+}
+
 /// A, B, C and Δ, each the exact value rounded once to binary64.
 pub fn coefficients(ray: &Ray, sphere: &Sphere) -> Coefficients {
-    let input = Input::new(ray, sphere);
     let Estimate {
         a, half_b, c, d, ..
-    } = match Whole::of(&input) {
-        Some(whole) => whole.estimate(),
-        None => Exact::new(&input).estimate(),
-    };
+    } = exact_estimate(&Input::new(ray, sphere));
     Coefficients {
         precision: Precision::Binary64,
         a,
@@ -234,7 +265,7 @@ impl Answer {
         }
     }
 
-    fn complete(&self) -> Option<(Solution, Stages)> {
+    fn complete(&self, input: &Input<f64>) -> Option<(Solution, Stages)> {
         match (self.class?, self.near, self.far) {
             ((Class::Miss, by), ..) => Some((Solution::MISS, Stages::without_roots(by))),
             ((class, by), Some((near, near_by)), Some((far, far_by))) => {
@@ -243,7 +274,7 @@ impl Answer {
                     near: Some(near_by),
                     far: Some(far_by),
                 };
-                Some((Solution { class, near, far }, stages))
+                Some((placed(input, class, near, far), stages))
             }
             _ => None,
         }
@@ -265,7 +296,7 @@ fn settle(
                 see(&found);
                 answer.learn(&found);
             }
-            if let Some(complete) = answer.complete() {
+            if let Some(complete) = answer.complete(input) {
                 return complete;
             }
         }

@@ -7,15 +7,7 @@
 use std::cmp::Ordering;
 
 use super::binary64::{Bounded, Estimate};
-
-/// Which of the two roots.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Which {
-    /// The smaller.
-    Near,
-    /// The larger.
-    Far,
-}
+use crate::method::Which;
 
 /// The signs that place a root beside a number; none where a stage cannot tell.
 pub trait Signs {
@@ -55,23 +47,12 @@ pub fn by_signs(which: Which, root: Bounded<f64>, signs: &impl Signs) -> Option<
         return None;
     }
     let m = midpoint(low, high);
-    Some(match compare(which, m, signs)? {
+    let compared = which.compare(signs.of_slope(m)?, || signs.of_value(m))?;
+    Some(match compared {
         Ordering::Less => low,
         Ordering::Equal => round(m),
         Ordering::Greater => high,
     })
-}
-
-/// How the exact root compares with m. The slope comes first: f(m) = 0 makes m this root only on
-/// this root's side of the vertex.
-fn compare(which: Which, m: f64, signs: &impl Signs) -> Option<Ordering> {
-    let slope = signs.of_slope(m)?;
-    match which {
-        Which::Near if slope.is_gt() => Some(Ordering::Less),
-        Which::Near => signs.of_value(m),
-        Which::Far if slope.is_lt() => Some(Ordering::Greater),
-        Which::Far => Some(signs.of_value(m)?.reverse()),
-    }
 }
 
 /// Half way between neighbours, exactly; an infinity counts as the ±2¹²⁸ that would come next.
