@@ -3,6 +3,7 @@
 //! Data flows one way, from the top of this list to its bottom; a module imports only from those
 //! above it.
 //!
+//! * [`system`]: what differs from one operating system to the next
 //! * [`text`]: text as people, programs and files write it: characters, numbers, lines
 //! * [`geometry`]: rays and spheres, plain data, checked where it comes in
 //! * [`method`]: the quadratic, and the ways to evaluate it
@@ -22,5 +23,6 @@ pub mod lab;
 pub mod method;
 pub mod render;
 pub mod scene;
+pub mod system;
 pub mod terminal;
 pub mod text;

@@ -1,9 +1,10 @@
 //! The explorer as a person drives it: keys in, screens out, no terminal.
 
 use std::fs;
-use std::sync::OnceLock;
+use std::os::unix::fs::symlink;
+use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, channel};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use proptest::prelude::*;
 use ratatui::buffer::Buffer;
@@ -14,18 +15,21 @@ use ratatui::layout::Rect;
 use ratatui::style::Color;
 use rayscope::explain::{Digits, number};
 use rayscope::explorer::action::{Action, markdown};
-use rayscope::explorer::{Explorer, Options, Request, Waker};
+use rayscope::explorer::{Explorer, Options, Request, Waker, Workplace};
 use rayscope::geometry::Ray;
-use rayscope::lab::{Alone, HEADER};
+use rayscope::lab::{BenchQueue, HEADER};
 use rayscope::method::{Class, Method, Precision};
 use rayscope::render::{ColorDepth, Style};
 use rayscope::scene::{PixelShape, Rays, Scene, Size};
 use rayscope::text::Glyphs;
+use tempfile::TempDir;
 
-/// An explorer with a screen.
+/// An explorer with a screen, and with a folder out of which nothing that is typed leads.
 struct Person {
     explorer: Explorer,
     size: (u16, u16),
+    folder: TempDir,
+    queue: BenchQueue,
 }
 
 impl Person {
@@ -34,14 +38,25 @@ impl Person {
     }
 
     fn with(name: &str, cols: u16, rows: u16, options: Options) -> Self {
-        leave_the_repository();
         let (scene, source) = Scene::open(name).expect("a scene");
+        let folder = tempfile::tempdir().expect("a folder");
+        let workplace = Workplace::within(folder.path());
+        let queue = workplace.queue.clone();
+        let mut explorer = Explorer::new(scene, &source, options);
+        explorer.work_in(workplace, &source);
         let mut person = Self {
-            explorer: Explorer::new(scene, &source, options),
+            explorer,
             size: (cols, rows),
+            folder,
+            queue,
         };
         person.screen();
         person
+    }
+
+    /// A file of their folder.
+    fn file(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
     }
 
     /// Presses keys by name, as in `right tab X ctrl-s`, and looks at the screen after each.
@@ -82,16 +97,6 @@ impl Person {
         let screen = self.screen();
         assert!(screen.contains(text), "no “{text}” on\n{screen}");
     }
-}
-
-/// A walk over random keys may come to save a file: it does so where nobody minds.
-fn leave_the_repository() {
-    static ELSEWHERE: OnceLock<tempfile::TempDir> = OnceLock::new();
-    ELSEWHERE.get_or_init(|| {
-        let folder = tempfile::tempdir().expect("a folder");
-        std::env::set_current_dir(folder.path()).expect("a folder to work in");
-        folder
-    });
 }
 
 fn textbook() -> Options {
@@ -490,11 +495,10 @@ fn quitting_asks_only_if_something_would_be_lost() {
 
 #[test]
 fn saving_never_overwrites_what_was_not_read() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("mine.toml");
-    let name = path.to_str().unwrap();
     let mut person = Person::opens("seed", 160, 24);
-    person.presses("x").commands(&format!("save-as {name}"));
+    let path = person.file("mine.toml");
+    let name = path.to_str().unwrap();
+    person.presses("x").commands("save-as mine.toml");
     person.shows("Saved");
     assert!(!person.explorer.is_changed());
     let (saved, _) = Scene::open(name).unwrap();
@@ -508,11 +512,11 @@ fn saving_never_overwrites_what_was_not_read() {
     assert_eq!(Scene::open(name).unwrap().0, *person.explorer.scene());
 
     let mut other = Person::opens("trio", 160, 24);
-    other
-        .commands(&format!("save-as {name}"))
-        .shows("exists already");
+    fs::copy(&path, other.file("mine.toml")).unwrap();
+    other.commands("save-as mine.toml").shows("exists already");
     other.presses("esc");
-    assert_eq!(Scene::open(name).unwrap().0, *person.explorer.scene());
+    let kept = Scene::load(&other.file("mine.toml")).unwrap();
+    assert_eq!(kept, *person.explorer.scene());
 }
 
 #[test]
@@ -833,19 +837,19 @@ impl Person {
         [delta].into_iter().chain(roots).filter(telling).collect()
     }
 
-    /// Has the picture measured, waiting for others on this host to finish theirs.
+    /// Has the picture measured.
     fn measures(&mut self) -> &mut Self {
         let woken = self.hears_the_waker();
-        let deadline = Instant::now() + PATIENCE;
-        loop {
-            self.presses("%");
+        self.presses("%");
+        self.waits_for_the_end(&woken)
+    }
+
+    fn waits_for_the_end(&mut self, woken: &Receiver<()>) -> &mut Self {
+        while self.explorer.is_measuring() {
             woken.recv_timeout(PATIENCE).expect("a wake-up");
-            assert!(self.explorer.catch_up());
-            if !self.screen().contains("Another explorer") {
-                return self;
-            }
-            assert!(Instant::now() < deadline, "{}", self.screen());
+            self.explorer.catch_up();
         }
+        self
     }
 
     fn hears_the_waker(&mut self) -> Receiver<()> {
@@ -859,18 +863,6 @@ impl Person {
 
 /// How long anything may take before it counts as not happening.
 const PATIENCE: Duration = Duration::from_secs(60);
-
-/// The right to measure, once others on this host have given it back.
-fn alone() -> Alone {
-    let deadline = Instant::now() + PATIENCE;
-    loop {
-        if let Some(alone) = Alone::take().expect("a lock") {
-            return alone;
-        }
-        assert!(Instant::now() < deadline, "somebody measures all the time");
-        std::thread::yield_now();
-    }
-}
 
 #[test]
 fn error_against_run_time_is_charted_when_asked() {
@@ -910,13 +902,17 @@ fn a_chart_of_another_picture_says_that_it_is_stale() {
 fn two_do_not_measure_at_once_and_one_can_be_stopped() {
     let mut person = Person::opens("trio", 80, 24);
     let woken = person.hears_the_waker();
-    let other = alone();
+    let other = person.queue.wait(Duration::from_secs(3), |_| false);
+    let other = other.expect("a queue").expect("the lock");
     person.presses("%");
     woken.recv_timeout(PATIENCE).expect("a wake-up");
     assert!(person.explorer.catch_up());
-    person.shows("Another explorer on this host is");
+    person.shows("measurement is before this one");
+    person.shows("about 4 s");
     drop(other);
-    person.measures();
+    person
+        .waits_for_the_end(&woken)
+        .shows("ns  99 % of the errors");
     person.presses("% %").shows("The measurement was stopped");
     assert!(
         !person.explorer.catch_up(),
@@ -999,12 +995,11 @@ fn a_dial_is_turned_back_to_the_scene_as_it_was() {
 
 #[test]
 fn a_turned_dial_is_nothing_to_save_and_nothing_to_lose() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("mine.toml");
-    let name = path.to_str().unwrap();
     let mut person = Person::opens("trio", 160, 24);
+    let path = person.file("mine.toml");
+    let name = path.to_str().unwrap();
     person
-        .commands(&format!("save-as {name}"))
+        .commands("save-as mine.toml")
         .commands("dial offset 4");
     person.presses("ctrl-s").shows("A dial is turned");
     assert_eq!(
@@ -1051,13 +1046,11 @@ fn the_mark_of_the_column_covers_no_word() {
 
 #[test]
 fn what_is_no_plain_file_is_not_replaced() {
-    let folder = tempfile::tempdir().unwrap();
-    let name = folder.path().to_str().unwrap();
     let mut person = Person::opens("trio", 200, 24);
     person
-        .commands(&format!("save-as {name}"))
+        .commands("save-as .")
         .shows("no file that could be replaced");
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    assert_eq!(fs::read_dir(person.folder.path()).unwrap().count(), 0);
 }
 
 #[test]
@@ -1126,14 +1119,13 @@ fn a_pixel_is_copied_as_a_row_and_as_test_cases_and_shown() {
 
 #[test]
 fn pixels_are_collected_in_a_file_that_is_one_of_rows() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("hard.csv");
     let mut person = Person::opens("seed", 160, 24);
-    let append = format!("append {}", path.to_str().unwrap());
-    person.commands(&append).shows("has 1 row now");
+    let path = person.file("hard.csv");
+    let append = "append hard.csv";
+    person.commands(append).shows("has 1 row now");
     person
         .commands("cursor 0 0")
-        .commands(&append)
+        .commands(append)
         .shows("has 2 rows now");
     let text = fs::read_to_string(&path).unwrap();
     let rows = [
@@ -1143,17 +1135,17 @@ fn pixels_are_collected_in_a_file_that_is_one_of_rows() {
     ];
     assert_eq!(text.lines().collect::<Vec<_>>(), rows);
     fs::write(&path, "x,y\n1,2").unwrap();
-    person.commands(&append).shows("its first line is not");
+    person.commands(append).shows("its first line is not");
     assert_eq!(fs::read_to_string(&path).unwrap(), "x,y\n1,2");
     // To open a pipe would wait for somebody at its other end.
-    let pipe = folder.path().join("pipe");
+    let pipe = person.file("pipe");
     rustix::fs::mkfifoat(rustix::fs::CWD, &pipe, rustix::fs::Mode::RWXU).unwrap();
-    person
-        .commands(&format!("append {}", pipe.display()))
-        .shows("it is no regular file");
-    person
-        .commands("append /dev/null")
-        .shows("it is no regular file");
+    symlink("/dev/null", person.file("null")).unwrap();
+    for name in ["pipe", "null"] {
+        person
+            .commands(&format!("append {name}"))
+            .shows("it is no regular file");
+    }
 }
 
 #[test]

@@ -6,13 +6,16 @@ use std::process::{Command, Output};
 
 use rayscope::lab::bench::{self, Plan, Sample};
 use rayscope::lab::timing::{Clock, Schedule, SystemClock};
-use rayscope::lab::{Census, Errors, Family, Reference};
+use rayscope::lab::{BenchQueue, Census, Errors, Family, Reference};
 use rayscope::method::Method;
 use serde_json::Value;
 
 fn rayscope(arguments: &[&str]) -> Output {
+    let queue = BenchQueue::private();
+    let (variable, queue) = queue.variable();
     Command::new(env!("CARGO_BIN_EXE_rayscope"))
         .args(arguments)
+        .env(variable, queue)
         .output()
         .unwrap()
 }

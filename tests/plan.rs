@@ -5,7 +5,7 @@ use std::process::Command;
 use glam::Vec3;
 use proptest::prelude::*;
 use rayscope::geometry::Sphere;
-use rayscope::lab::frames;
+use rayscope::lab::{BenchQueue, frames};
 use rayscope::method::Method;
 use rayscope::render::{Counts, Frame, Image, Look, Style, View};
 use rayscope::scene::{Body, Builtin, Camera, PixelShape, Projection, Rays, Scene, Size};
@@ -497,8 +497,11 @@ proptest! {
 }
 
 fn rayscope(arguments: &[&str]) -> (String, String, Option<i32>) {
+    let queue = BenchQueue::private();
+    let (variable, queue) = queue.variable();
     let out = Command::new(env!("CARGO_BIN_EXE_rayscope"))
         .args(arguments)
+        .env(variable, queue)
         .output()
         .expect("the program runs");
     let text = |bytes| String::from_utf8(bytes).expect("text");

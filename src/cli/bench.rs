@@ -1,15 +1,18 @@
 //! `rayscope bench`: error against run time.
 
+use std::io;
+use std::time::{Duration, Instant};
+
 use clap::Args;
 
 use super::failure::{DONE, INVALID};
 use super::plan::buffer_of;
 use super::progress::{INTERRUPTED, Progress};
 use super::sweep::{Format, Sweep};
-use super::{Failure, Outcome, save, whole, write_out};
+use super::{Failure, Outcome, complain, save, whole, write_out};
 use crate::lab::bench::{self, MOST_TIMED, Plan, Report, Sample};
 use crate::lab::timing::{Schedule, SelfCheck, SystemClock};
-use crate::lab::{Alone, Family, Machine, frames, plot};
+use crate::lab::{BenchLock, BenchQueue, Family, Machine, frames, plot};
 use crate::render::{CELL_ASPECT, ColorDepth, Image, Style, fit};
 use crate::scene::{Rays, Scene};
 use crate::terminal::{Limits, Painter};
@@ -67,8 +70,8 @@ pub(super) fn run(arguments: &Bench) -> Outcome {
     }
     let samples = samples(arguments)?;
     let mut progress = Progress::new("bench", samples.len())?;
-    // Where that can't be found out, the other self-checks have to do.
-    let alone = Alone::take();
+    let length = length_of(arguments, samples.len());
+    let lock = right_to_measure(length, &progress);
     let mut report = bench::run(
         plan(arguments),
         &samples,
@@ -76,13 +79,10 @@ pub(super) fn run(arguments: &Bench) -> Outcome {
         &SystemClock::new(),
         |number, name| progress.go_on(number, name),
     );
-    report.self_checks.extend(
-        alone
-            .as_ref()
-            .ok()
-            .map(|alone| SelfCheck::alone(alone.is_some())),
-    );
-    drop(alone);
+    // Where that can't be found out, the other self-checks have to do.
+    let alone = lock.as_ref().ok().map(Option::is_some);
+    report.self_checks.extend(alone.map(SelfCheck::alone));
+    drop(lock);
     progress.clear();
     let drawn = save(arguments.sweep.plot.as_deref(), || {
         plot::work_precision(&report, &Machine::detect())
@@ -98,6 +98,26 @@ pub(super) fn run(arguments: &Bench) -> Outcome {
     })
 }
 
+/// How long a run of so many parts takes about, for those who wait for it.
+fn length_of(arguments: &Bench, parts: usize) -> Duration {
+    let each = if arguments.sweep.quick { 1 } else { 15 };
+    Duration::from_secs(each * parts as u64)
+}
+
+/// The right to measure, in turn; none if others keep it for much longer than they said, or if
+/// somebody waits no longer.
+fn right_to_measure(length: Duration, progress: &Progress) -> io::Result<Option<BenchLock>> {
+    const PATIENCE: u32 = 4;
+    let mut deadline = None;
+    BenchQueue::of_host().wait(length, |wait| {
+        let last = *deadline.get_or_insert_with(|| {
+            complain(format_args!("waiting to measure: {wait}"));
+            Instant::now() + PATIENCE * wait.about
+        });
+        Instant::now() < last && !progress.interrupted()
+    })
+}
+
 /// Measures whole frames instead of single rays.
 fn run_frames(arguments: &Bench) -> Outcome {
     let mut schedule = frames::Schedule::new(arguments.sweep.quick, arguments.sweep.seed);
@@ -110,7 +130,8 @@ fn run_frames(arguments: &Bench) -> Outcome {
     }
     let mut progress = Progress::new("bench", schedule.rows())?;
     // No explorer of this host should time its picture meanwhile.
-    let _alone = Alone::take();
+    let length = length_of(arguments, schedule.rows());
+    let _lock = right_to_measure(length, &progress);
     let report = frames::run(
         &schedule,
         &SystemClock::new(),

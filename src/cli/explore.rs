@@ -10,7 +10,7 @@ use clap::Args;
 use super::appearance::{Appearance, default_style, is_anybody_present};
 use super::place::Place;
 use super::{Failure, Outcome, aspect, choice, complain};
-use crate::explorer::{Explorer, Opening, Options};
+use crate::explorer::{Explorer, Opening, Options, Workplace};
 use crate::method::Method;
 use crate::render::{Style, View};
 use crate::scene::{Scene, Source};
@@ -50,9 +50,7 @@ pub(super) struct Explore {
 pub(super) fn run(arguments: &Explore) -> Outcome {
     let appearance = &arguments.appearance;
     let (mut explorer, source) = opened(arguments, |options| appearance.fitted(options))?;
-    if let Some(folder) = state_folder() {
-        explorer.keep_in(&folder, &source);
-    }
+    explorer.work_in(Workplace::of_process(state_folder()), &source);
     converse(&mut explorer, appearance)
 }
 

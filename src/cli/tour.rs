@@ -10,7 +10,7 @@ use super::appearance::Appearance;
 use super::place::Place;
 use super::{Failure, Outcome, aspect, choice, explore, from_one, write_out};
 use crate::explorer::tour::{self, Chapter};
-use crate::explorer::{Explorer, Opening, Options};
+use crate::explorer::{Explorer, Opening, Options, Workplace};
 use crate::method::Method;
 use crate::render::{Style, View};
 use crate::scene::{Builtin, Source};
@@ -87,6 +87,7 @@ pub(super) fn opened(
     };
     explore::set_out(&opening, || {
         let mut explorer = Explorer::new(own.scene(), &Source::Builtin(own), options);
+        explorer.work_in(Workplace::of_process(None), &Source::Builtin(own));
         explorer.start_tour(Arc::clone(&chapters), at, page - 1);
         explorer
     })

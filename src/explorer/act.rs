@@ -1,7 +1,5 @@
 //! What each action and each command does to the state.
 
-use std::path::{Path, PathBuf};
-
 use crate::explain::{Digits, number};
 use crate::explorer::action::{Action, Group};
 use crate::explorer::command::Command;
@@ -14,7 +12,7 @@ use crate::explorer::{Explorer, Request};
 use crate::lab::CaseForm;
 use crate::method::{Method, Precision};
 use crate::render::{ColorDepth, Style, View};
-use crate::scene::{Aim, Camera, Scene};
+use crate::scene::{Aim, Camera};
 
 /// Why something on the screen is as it is, where the person has said so.
 const CHOSEN_HERE: &str = "chosen here";
@@ -166,12 +164,16 @@ impl Explorer {
         match command {
             Command::Do(action) => self.act(action),
             Command::QuitNow => self.ended = Some(0),
-            Command::Open(name) if self.is_worth_saving() => match Scene::open(&name) {
+            Command::Open(name) if self.is_worth_saving() => match self.read_scene(&name) {
                 Ok(_) => self.mode = Mode::Ask(Question::Open(name)),
-                Err(e) => self.warn(e.to_string()),
+                Err(sentence) => self.warn(sentence),
             },
             Command::Open(name) => self.open(&name),
-            Command::SaveAs(name) => self.save_as(PathBuf::from(name)),
+            Command::SaveAs(name) => {
+                if let Some(path) = self.reach(&name) {
+                    self.save_as(path);
+                }
+            }
             Command::Method(method) => self.options.method = method,
             Command::Style(style) => self.set_style(style),
             Command::View(view) => self.set_view(view),
@@ -179,7 +181,11 @@ impl Explorer {
             Command::Color(depth) => self.set_depth(depth),
             Command::Panel(panel) => self.show_panel(panel),
             Command::Copy(form) => self.copy_case(form),
-            Command::Append(name) => self.append_case(Path::new(&name)),
+            Command::Append(name) => {
+                if let Some(path) = self.reach(&name) {
+                    self.append_case(&path);
+                }
+            }
             Command::Dial(dial, k) => self.dial_to(dial, k),
             Command::Step(name) => self.go_to_step_named(&name),
             Command::At(t) => self.scrubbed = Some(t),

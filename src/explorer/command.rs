@@ -8,6 +8,7 @@ use crate::scene::Builtin;
 use crate::explorer::action::Action;
 use crate::explorer::draw::theme::Palette;
 use crate::explorer::edit::field::{Field, parse_number};
+use crate::explorer::files::workplace::Workplace;
 use crate::explorer::panel::Panel;
 use crate::explorer::tour::chapter as tour;
 
@@ -286,7 +287,7 @@ fn nearest(name: &str) -> Option<&'static str> {
 }
 
 /// All lines that the line typed so far could become, in order.
-pub fn complete(line: &str) -> Vec<String> {
+pub fn complete(line: &str, workplace: &Workplace) -> Vec<String> {
     let starting = |words: Vec<String>, head: &str, typed: &str| {
         words
             .into_iter()
@@ -315,10 +316,10 @@ pub fn complete(line: &str) -> Vec<String> {
         "tour" => tour::builtin().iter().map(|c| c.name.clone()).collect(),
         "open" => {
             let mut words: Vec<_> = Builtin::ALL.iter().map(|b| b.name().to_owned()).collect();
-            words.extend(crate::explorer::files::disk::starting_with(typed));
+            words.extend(workplace.names_starting_with(typed));
             words
         }
-        "save-as" | "append" => crate::explorer::files::disk::starting_with(typed),
+        "save-as" | "append" => workplace.names_starting_with(typed),
         _ => Vec::new(),
     };
     starting(words, &head, typed)

@@ -28,6 +28,7 @@ use crate::scene::{Scene, Size, Source};
 
 pub use draw::theme::Palette;
 pub use edit::motion::usual_step;
+pub use files::workplace::Workplace;
 pub use link::{Opening, command_line};
 pub use options::{Options, Reasons, Request};
 pub use panel::Panel;
@@ -90,6 +91,7 @@ pub struct Explorer {
     picture: Picture,
     mouse: bool,
     request: Option<Request>,
+    workplace: Workplace,
     rescue: Option<Rescue>,
     arrival: Arrival,
     tour: Option<Tour>,
@@ -137,6 +139,7 @@ impl Explorer {
             picture,
             mouse: false,
             request: None,
+            workplace: Workplace::default(),
             rescue: None,
             arrival: Arrival::default(),
             tour: None,

@@ -2,8 +2,8 @@
 //!
 //! Nothing here knows a terminal; the command line and the explorer print what is found.
 
-mod alone;
 pub mod bench;
+mod bench_lock;
 mod case;
 pub mod dials;
 mod errors;
@@ -20,7 +20,7 @@ pub mod stress;
 pub mod timing;
 mod turn;
 
-pub use alone::Alone;
+pub use bench_lock::{BenchLock, BenchQueue, BenchWait};
 pub use case::{Case, CaseForm, HEADER};
 pub use dials::Dial;
 pub use errors::{

@@ -1,9 +1,10 @@
 //! The errors of one picture: pixel by pixel against `exact`, and charted against run time.
 
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
-use super::alone::Alone;
 use super::bench::{self, MOST_TIMED, Plan, Report, Sample};
+use super::bench_lock::{BenchQueue, BenchWait};
 use super::errors::{Fault, Percentiles, Wrong};
 use super::timing::{Schedule, SystemClock};
 use crate::method::{Method, root_bits_lost};
@@ -127,8 +128,6 @@ fn root_error(hit: Hit, right: Hit) -> PixelError {
 /// Why there is no chart.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum NoChart {
-    /// Somebody else on this host is measuring: two at once would disturb each other.
-    Busy,
     /// It was told to stop.
     Cancelled,
     /// The picture has no sphere to ask about.
@@ -143,14 +142,29 @@ const SEED: u64 = 1;
 /// How often each method is timed: a tenth of a second on a quiet machine.
 const ROUNDS: usize = 101;
 
+/// How long a picture takes about, with what comes before the timing.
+const LENGTH: Duration = Duration::from_secs(1);
+
 /// Charts all methods on the questions that a picture asks, to be run on a thread of its own.
-/// `cancel` ends it early.
-pub fn chart(scene: &Scene, rays: &Rays, cancel: &AtomicBool) -> Result<Report, NoChart> {
-    let _alone = match Alone::take() {
-        Ok(Some(alone)) => alone,
-        Ok(None) => return Err(NoChart::Busy),
+/// It waits its turn in `queue`, tells meanwhile how it is, and that it
+/// has begun. `cancel` ends it early.
+pub fn chart(
+    scene: &Scene,
+    rays: &Rays,
+    queue: &BenchQueue,
+    cancel: &AtomicBool,
+    mut waits: impl FnMut(Option<BenchWait>),
+) -> Result<Report, NoChart> {
+    let lock = queue.wait(LENGTH, |wait| {
+        waits(Some(wait));
+        !cancel.load(Ordering::Relaxed)
+    });
+    let _lock = match lock {
+        Ok(Some(lock)) => lock,
+        Ok(None) => return Err(NoChart::Cancelled),
         Err(error) => return Err(NoChart::Failed(error.to_string())),
     };
+    waits(None);
     let sample = Sample::of_scene(scene, rays, SEED, MOST_TIMED);
     if sample.problems.is_empty() {
         return Err(NoChart::Empty);
@@ -251,20 +265,10 @@ mod tests {
     fn a_chart_is_of_the_picture_and_can_be_cancelled() {
         let (scene, rays) = picture("seed");
         let cancelled = AtomicBool::new(true);
-        // The other charts of this test program hold the lock for moments only.
-        let result = loop {
-            match chart(&scene, &rays, &cancelled) {
-                Err(NoChart::Busy) => std::thread::yield_now(),
-                result => break result,
-            }
-        };
-        assert_eq!(result.unwrap_err(), NoChart::Cancelled);
-        let report = loop {
-            match chart(&scene, &rays, &AtomicBool::new(false)) {
-                Err(NoChart::Busy) => std::thread::yield_now(),
-                result => break result.unwrap(),
-            }
-        };
+        let queue = BenchQueue::private();
+        let draw = |cancel| chart(&scene, &rays, &queue, cancel, |_| ());
+        assert_eq!(draw(&cancelled).unwrap_err(), NoChart::Cancelled);
+        let report = draw(&AtomicBool::new(false)).unwrap();
         assert_eq!(report.chapters[0].census.rays, 1600);
     }
 }

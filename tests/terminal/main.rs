@@ -5,9 +5,10 @@ mod seen;
 mod ssh;
 
 use std::fs;
+use std::time::Duration;
 
 use pty::{Pty, Start};
-use rayscope::lab::Alone;
+use rayscope::lab::BenchQueue;
 use rustix::process::Signal;
 
 #[test]
@@ -136,22 +137,17 @@ fn the_smallest_terminals_are_told_and_can_grow() {
     }
 }
 
-/// How often a measurement is tried while others have their turn.
-const TRIES: usize = 100;
-
 #[test]
 fn what_a_thread_has_measured_is_shown_without_a_key() {
-    // Another test, or somebody else on this host, may be measuring just now: each try is on a screen
-    // of its own, on which no old refusal is taken for a new one.
-    let measured = (0..TRIES).find_map(|_| {
-        let mut pty = Pty::explorer(Start::default().args(&["trio"]));
-        pty.sends("%");
-        pty.waits_for("the chart, or why there is none", |p| {
-            p.shows("wrong %") || p.shows("Another explorer")
-        });
-        pty.shows("wrong %").then_some(pty)
-    });
-    let mut pty = measured.expect("a time when nobody else measures");
+    let queue = BenchQueue::private();
+    let lock = queue
+        .wait(Duration::from_secs(2), |_| false)
+        .expect("a queue");
+    let mut pty = Pty::explorer(Start::default().args(&["trio"]).queue(&queue));
+    pty.sends("%");
+    pty.waits_to_show("measurement is before this one");
+    drop(lock);
+    pty.waits_to_show("wrong %");
     // Quitting does not wait for what is being measured.
     pty.sends("%q");
     assert_eq!(pty.ends(), 0);
@@ -196,18 +192,18 @@ fn ctrl_z_gives_the_terminal_to_the_shell_and_fg_comes_back() {
 #[test]
 fn whoever_is_stopped_lets_others_measure() {
     let shell = "set -m; \"$@\"; echo back in the shell; read line; fg >/dev/null; echo status $?";
-    let mut pty = Pty::explorer(Start::default().through(shell));
+    let queue = BenchQueue::private();
+    let mut pty = Pty::explorer(Start::default().through(shell).queue(&queue));
     pty.sends("%");
     pty.waits_to_show("error against run time");
     pty.sends("\x1a");
     pty.waits_to_show("back in the shell");
-    // Another test may be measuring just now; one that is stopped would do so for ever.
-    pty.waits_for("the right to measure", |_| {
-        Alone::take().is_ok_and(|alone| alone.is_some())
-    });
+    // One that is stopped while it measures would do so for ever.
+    let lock = queue.wait(Duration::from_secs(1), |_| false);
+    assert!(lock.expect("a queue").is_some());
     pty.sends("go on\r");
     pty.waits_for("the panel again", |p| {
-        p.shows("was stopped") || p.shows("Another explorer") || p.shows("wrong %")
+        p.shows("was stopped") || p.shows("wrong %")
     });
     pty.sends("q");
     pty.waits_to_show("status 0");

@@ -10,6 +10,7 @@ use std::thread::{self, JoinHandle};
 use std::time::{Duration, Instant};
 
 use portable_pty::{Child, CommandBuilder, MasterPty, PtySize, native_pty_system};
+use rayscope::lab::BenchQueue;
 use rustix::process::{Pid, Signal, kill_process};
 use rustix::termios::{self, OptionalActions, SpecialCodeIndex};
 use tempfile::TempDir;
@@ -27,6 +28,7 @@ pub struct Start {
     environment: Vec<(String, String)>,
     arguments: Vec<String>,
     home: Option<Arc<TempDir>>,
+    queue: BenchQueue,
     through: Option<String>,
 }
 
@@ -40,6 +42,7 @@ impl Default for Start {
                 .into(),
             arguments: Vec::new(),
             home: None,
+            queue: BenchQueue::private(),
             through: None,
         }
     }
@@ -65,6 +68,12 @@ impl Start {
     /// The home folder of an earlier start.
     pub fn home(mut self, home: &Arc<TempDir>) -> Self {
         self.home = Some(Arc::clone(home));
+        self
+    }
+
+    /// The queue to measure in, which is its own otherwise.
+    pub fn queue(mut self, queue: &BenchQueue) -> Self {
+        self.queue = queue.clone();
         self
     }
 
@@ -114,6 +123,8 @@ impl Start {
         command.env_clear();
         command.env("PATH", "/usr/bin:/bin");
         command.env("HOME", home);
+        let (variable, queue) = self.queue.variable();
+        command.env(variable, queue);
         command.cwd(home);
         for (name, value) in &self.environment {
             command.env(name, value);

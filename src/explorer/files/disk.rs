@@ -82,13 +82,9 @@ fn replace(target: &Path, text: &str) -> std::io::Result<()> {
     Ok(())
 }
 
-/// Files and folders whose path starts with what was typed, folders ending in `/`.
-pub fn starting_with(typed: &str) -> Vec<String> {
-    let (folder, start) = match typed.rfind('/') {
-        Some(at) => typed.split_at(at + 1),
-        None => ("", typed),
-    };
-    let Ok(entries) = fs::read_dir(if folder.is_empty() { "." } else { folder }) else {
+/// Files and folders in `folder` whose names start like that, folders ending in `/`; each after `head`.
+pub fn starting_with(folder: &Path, head: &str, start: &str) -> Vec<String> {
+    let Ok(entries) = fs::read_dir(folder) else {
         return Vec::new();
     };
     let mut names: Vec<_> = entries
@@ -98,7 +94,7 @@ pub fn starting_with(typed: &str) -> Vec<String> {
             let hidden = name.starts_with('.') && !start.starts_with('.');
             let end = if entry.path().is_dir() { "/" } else { "" };
             let fits = end == "/" || entry.path().extension().is_some_and(|e| e == "toml");
-            (name.starts_with(start) && fits && !hidden).then(|| format!("{folder}{name}{end}"))
+            (name.starts_with(start) && fits && !hidden).then(|| format!("{head}{name}{end}"))
         })
         .collect();
     names.sort();

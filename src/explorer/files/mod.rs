@@ -3,3 +3,4 @@
 pub(crate) mod disk;
 pub(crate) mod rescue;
 pub(crate) mod saving;
+pub(crate) mod workplace;

@@ -29,7 +29,7 @@ pub(crate) struct Rescue {
 impl Explorer {
     /// Keeps unsaved work in `folder` if the terminal is lost, and offers what is there already for
     /// the scene from `source`.
-    pub fn keep_in(&mut self, folder: &Path, source: &Source) {
+    pub(super) fn keep_in(&mut self, folder: &Path, source: &Source) {
         let rescue = Rescue {
             folder: folder.to_owned(),
             scene: identity(source),
@@ -200,12 +200,12 @@ mod tests {
     use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 
     use super::*;
-    use crate::explorer::Options;
+    use crate::explorer::{Options, Workplace};
 
     fn opened(folder: &Path, name: &str) -> Explorer {
         let (scene, source) = Scene::open(name).expect("a scene");
         let mut explorer = Explorer::new(scene, &source, Options::default());
-        explorer.keep_in(folder, &source);
+        explorer.work_in(Workplace::keeping_in(folder), &source);
         explorer
     }
 

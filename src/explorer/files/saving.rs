@@ -43,30 +43,41 @@ impl Explorer {
     }
 
     pub(crate) fn open(&mut self, name: &str) {
-        // A pipe or a device could be waited for without end.
-        let odd = |m: fs::Metadata| !m.is_file() && !m.is_dir();
-        if Builtin::by_name(name).is_none() && fs::metadata(name).is_ok_and(odd) {
-            return self.warn(format!(
-                "{name}: found no regular file, expected a scene file"
-            ));
-        }
-        match Scene::open(name) {
+        match self.read_scene(name) {
             Ok((scene, source)) => {
                 self.leave_tour();
                 let (screen, options) = (self.screen, self.options);
                 let (rescue, put_away) = (self.rescue.take(), self.put_away.take());
                 let measuring = std::mem::take(&mut self.measuring);
+                let workplace = std::mem::take(&mut self.workplace);
                 *self = Self::new(scene, &source, options);
                 (self.screen, self.put_away) = (screen, put_away);
                 self.measuring = measuring;
+                self.workplace = workplace;
                 if let Some(rescue) = rescue {
                     self.keep_in(&rescue.folder, &source);
                 }
                 let about = self.scene().about.clone().unwrap_or_default();
                 self.say(format!("{}. {about}", self.scene().name));
             }
-            Err(e) => self.warn(e.to_string()),
+            Err(sentence) => self.warn(sentence),
         }
+    }
+
+    /// The scene of that name, or why it can't be had.
+    pub(crate) fn read_scene(&self, name: &str) -> Result<(Scene, Source), String> {
+        if let Some(builtin) = Builtin::by_name(name) {
+            return Ok((builtin.scene(), Source::Builtin(builtin)));
+        }
+        let path = self.workplace.reach(name)?;
+        // A pipe or a device could be waited for without end.
+        let odd = |m: fs::Metadata| !m.is_file() && !m.is_dir();
+        if fs::metadata(&path).is_ok_and(odd) {
+            return Err(format!(
+                "{name}: found no regular file, expected a scene file"
+            ));
+        }
+        Scene::open(&path.to_string_lossy()).map_err(|e| e.to_string())
     }
 
     pub(crate) fn save(&mut self) {

@@ -12,6 +12,7 @@ use crate::explorer::action::Action;
 use crate::explorer::command::{self, Command};
 use crate::explorer::edit::field::{Field, parse_number};
 use crate::explorer::files::rescue;
+use crate::explorer::files::workplace::Workplace;
 use crate::explorer::key::Key;
 use crate::explorer::mode::line::Line;
 use crate::explorer::tour::Tour;
@@ -225,7 +226,7 @@ impl Explorer {
             return;
         }
         if key.is("tab") || key.is("backtab") {
-            prompt.complete(key.is("tab"));
+            prompt.complete(key.is("tab"), &self.workplace);
         } else if prompt.line.edit(key) {
             prompt.completions = None;
         }
@@ -320,7 +321,7 @@ impl Explorer {
 
 impl Prompt {
     /// Shows the next (or previous) line that what was typed could become.
-    fn complete(&mut self, forward: bool) {
+    fn complete(&mut self, forward: bool, workplace: &Workplace) {
         let prefix = self.purpose.prefix();
         let (lines, at) = if let Some((lines, at)) = self.completions.take() {
             let by = if forward { 1 } else { lines.len() - 1 };
@@ -328,7 +329,7 @@ impl Prompt {
             (lines, at)
         } else {
             let typed = format!("{prefix}{}", self.line.text());
-            (command::complete(&typed), 0)
+            (command::complete(&typed, workplace), 0)
         };
         if let Some(line) = lines.get(at) {
             self.line = Line::new(line.strip_prefix(prefix).unwrap_or(line));

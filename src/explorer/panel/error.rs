@@ -8,7 +8,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crate::explain::{Line, Role};
 use crate::explorer::Explorer;
@@ -16,6 +16,7 @@ use crate::explorer::panel::Panel;
 use crate::lab::bench::Report;
 use crate::lab::picture::{NoChart, chart};
 use crate::lab::timing::SelfCheck;
+use crate::lab::{BenchQueue, BenchWait};
 use crate::scene::{Rays, Scene};
 use crate::text;
 
@@ -84,7 +85,17 @@ pub(crate) struct Chart {
 struct Run {
     of: Subject,
     cancel: Arc<AtomicBool>,
-    report: Receiver<Result<Report, NoChart>>,
+    news: Receiver<News>,
+    /// Who is before it.
+    wait: Option<BenchWait>,
+}
+
+/// What the thread has to say.
+#[derive(Debug)]
+enum News {
+    /// Others come first; nobody any more.
+    Waits(Option<BenchWait>),
+    Ends(Result<Report, NoChart>),
 }
 
 impl Drop for Run {
@@ -93,43 +104,68 @@ impl Drop for Run {
     }
 }
 
-/// Sends the report and wakes whoever waits for it; wakes too if a panic leaves nothing to send.
-struct Answer {
-    report: Option<Sender<Result<Report, NoChart>>>,
+/// Sends news and wakes whoever waits for them; wakes too if a panic leaves nothing to send.
+struct NewsSender {
+    to: Option<Sender<News>>,
     waker: Waker,
 }
 
-impl Answer {
-    fn send(&self, report: Result<Report, NoChart>) {
-        if let Some(to) = &self.report {
+impl NewsSender {
+    fn send(&self, news: News) {
+        if let Some(to) = &self.to {
             // Nobody listens any more: then nobody misses it.
-            let _ = to.send(report);
+            let _ = to.send(news);
         }
     }
 }
 
-impl Drop for Answer {
+impl Drop for NewsSender {
     fn drop(&mut self) {
-        self.report = None;
+        self.to = None;
         self.waker.wake();
     }
 }
 
 impl Run {
-    fn start(of: Subject, waker: Waker) -> Result<Self, NoChart> {
+    fn start(of: Subject, queue: BenchQueue, waker: Waker) -> Result<Self, NoChart> {
         let cancel = Arc::new(AtomicBool::new(false));
-        let (sender, report) = mpsc::channel();
-        let answer = Answer {
-            report: Some(sender),
+        let (sender, news) = mpsc::channel();
+        let sender = NewsSender {
+            to: Some(sender),
             waker,
         };
         let (subject, cancelled) = (of.clone(), Arc::clone(&cancel));
         let work = move || {
-            answer.send(chart(&subject.scene, &subject.rays, &cancelled));
+            let Subject { scene, rays } = &subject;
+            let mut told = None;
+            let end = chart(scene, rays, &queue, &cancelled, |wait| {
+                if told != wait {
+                    told = wait;
+                    sender.send(News::Waits(wait));
+                    sender.waker.wake();
+                }
+            });
+            sender.send(News::Ends(end));
         };
         match thread::Builder::new().name("measure".into()).spawn(work) {
-            Ok(_) => Ok(Self { of, cancel, report }),
+            Ok(_) => Ok(Self {
+                of,
+                cancel,
+                news,
+                wait: None,
+            }),
             Err(error) => Err(NoChart::Failed(error.to_string())),
+        }
+    }
+}
+
+impl Run {
+    fn in_words(&self) -> String {
+        match &self.wait {
+            Some(wait) => format!(
+                "Waiting to measure, since two at once would disturb each other: {wait}. % waits no longer."
+            ),
+            None => "Measuring … the keys do what they always do.".into(),
         }
     }
 }
@@ -143,11 +179,8 @@ impl Measuring {
     /// What there is to say before the chart, or in its place, in lines of that width.
     pub(crate) fn remarks(&self, width: usize) -> Vec<Line> {
         let mut remarks = Vec::new();
-        if self.is_running() {
-            remarks.push((
-                Role::Plain,
-                "Measuring … the keys do what they always do.".into(),
-            ));
+        if let Some(run) = &self.run {
+            remarks.push((Role::Plain, run.in_words()));
         } else if let Some(refusal) = &self.refusal {
             remarks.push((Role::Warning, in_words(refusal)));
         }
@@ -170,15 +203,11 @@ const RELEASE: Duration = Duration::from_secs(2);
 /// What the panel says before anything was measured.
 const NOTHING_YET: &str = "Press % to time all methods on the questions that this picture asks: the ray \
     of each pixel with each sphere. Each answer is held against the truth as well. It takes about a \
-    second, and only one explorer of this host measures at a time.";
+    second; on one host one measures after the other.";
 
 /// A refusal as a sentence.
 fn in_words(refusal: &NoChart) -> String {
     match refusal {
-        NoChart::Busy => {
-            "Another explorer on this host is measuring, and two would disturb each other. % tries again."
-                .into()
-        }
         NoChart::Cancelled => "The measurement was stopped. % begins anew.".into(),
         NoChart::Empty => "The scene has no spheres: there is nothing to ask.".into(),
         NoChart::Failed(reason) => format!("Nothing could be measured: {reason}. % tries again."),
@@ -228,19 +257,31 @@ impl Explorer {
         self.measuring.is_running()
     }
 
-    /// Takes what threads have finished; false if nothing on the screen can have changed.
+    /// Takes what threads have to say; false if nothing on the screen can have changed.
     pub fn catch_up(&mut self) -> bool {
-        let Some(run) = &self.measuring.run else {
+        let Some(run) = &mut self.measuring.run else {
             return false;
         };
-        let result = match run.report.try_recv() {
-            Ok(result) => result,
-            Err(TryRecvError::Empty) => return false,
-            Err(TryRecvError::Disconnected) => Err(NoChart::Failed("it broke off".into())),
-        };
-        let of = run.of.clone();
-        self.measuring.run = None;
-        match result {
+        let mut any = false;
+        loop {
+            let end = match run.news.try_recv() {
+                Ok(News::Ends(end)) => end,
+                Ok(News::Waits(wait)) => {
+                    (run.wait, any) = (wait, true);
+                    continue;
+                }
+                Err(TryRecvError::Empty) => return any,
+                Err(TryRecvError::Disconnected) => Err(NoChart::Failed("it broke off".into())),
+            };
+            let of = run.of.clone();
+            self.measuring.run = None;
+            self.end_measuring(of, end);
+            return true;
+        }
+    }
+
+    fn end_measuring(&mut self, of: Subject, end: Result<Report, NoChart>) {
+        match end {
             Ok(report) => {
                 self.measuring.chart = Some(Chart {
                     report,
@@ -255,7 +296,6 @@ impl Explorer {
         if self.panel != Panel::Error {
             self.say("Measured. 7 shows error against run time.");
         }
-        true
     }
 
     /// Times all methods on the questions of this picture, or stops doing so.
@@ -272,7 +312,8 @@ impl Explorer {
             scene: self.scene().clone(),
             rays: self.picture.rays,
         };
-        match Run::start(of, self.measuring.waker.clone()) {
+        let (queue, waker) = (self.workplace.queue.clone(), self.measuring.waker.clone());
+        match Run::start(of, queue, waker) {
             Ok(run) => {
                 self.measuring.run = Some(run);
                 self.measuring.refusal = None;
@@ -287,7 +328,9 @@ impl Explorer {
         if let Some(run) = self.measuring.run.take() {
             run.cancel.store(true, Ordering::Relaxed);
             // Between two rounds it looks; one that takes longer is not worth a terminal that hangs.
-            let _ = run.report.recv_timeout(RELEASE);
+            let deadline = Instant::now() + RELEASE;
+            let left = || deadline.saturating_duration_since(Instant::now());
+            while let Ok(News::Waits(_)) = run.news.recv_timeout(left()) {}
             self.measuring.refusal = Some(NoChart::Cancelled);
         }
     }

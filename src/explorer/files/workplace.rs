@@ -1,0 +1,134 @@
+//! Where an explorer works: the files it may reach, where it keeps unsaved work, whom it queues with.
+
+use std::path::{Component, Path, PathBuf};
+
+use super::disk;
+use crate::explorer::Explorer;
+use crate::lab::BenchQueue;
+use crate::scene::Source;
+
+/// The surroundings of an explorer. By default it has none: no name of a file reaches anything, and
+/// nobody shares its queue.
+#[derive(Debug, Clone)]
+pub struct Workplace {
+    /// What relative names start from; nothing stands for the folder that the process works in.
+    folder: PathBuf,
+    /// Whether only files in that folder can be reached.
+    is_confined: bool,
+    /// Where unsaved work is kept.
+    pub state: Option<PathBuf>,
+    /// The queue to measure in.
+    pub queue: BenchQueue,
+}
+
+impl Default for Workplace {
+    fn default() -> Self {
+        Self {
+            folder: PathBuf::new(),
+            is_confined: true,
+            state: None,
+            queue: BenchQueue::private(),
+        }
+    }
+}
+
+impl Workplace {
+    /// That of this process and its host; unsaved work is kept in `state`.
+    pub fn of_process(state: Option<PathBuf>) -> Self {
+        Self {
+            folder: PathBuf::new(),
+            is_confined: false,
+            state,
+            queue: BenchQueue::of_host(),
+        }
+    }
+
+    /// No place but a folder to keep unsaved work in.
+    #[cfg(test)]
+    pub(crate) fn keeping_in(state: &Path) -> Self {
+        Self {
+            state: Some(state.to_owned()),
+            ..Self::default()
+        }
+    }
+
+    /// A place where names reach files in this folder only.
+    pub fn within(folder: &Path) -> Self {
+        Self {
+            folder: folder.to_owned(),
+            ..Self::default()
+        }
+    }
+
+    /// The file that a person means by this name, or why they can't have it.
+    pub(crate) fn reach(&self, name: &str) -> Result<PathBuf, String> {
+        let path = self.folder.join(name);
+        let leads_out = path.components().any(|part| part == Component::ParentDir);
+        let is_inside = path.starts_with(&self.folder) && !leads_out;
+        let has_folder = !self.folder.as_os_str().is_empty();
+        if !self.is_confined || has_folder && is_inside {
+            Ok(path)
+        } else {
+            Err(format!(
+                "{name}: it lies outside of the folder of this explorer"
+            ))
+        }
+    }
+
+    /// Names of files and folders that start with what was typed, folders ending in `/`.
+    pub(crate) fn names_starting_with(&self, typed: &str) -> Vec<String> {
+        let folder = typed.rfind('/').map_or("", |at| &typed[..=at]);
+        let folder_of = if folder.is_empty() { "." } else { folder };
+        match self.reach(folder_of) {
+            Ok(path) => disk::starting_with(&path, folder, &typed[folder.len()..]),
+            Err(_) => Vec::new(),
+        }
+    }
+}
+
+impl Explorer {
+    /// Works in that place: unsaved work is kept there if the terminal is lost, and what is there
+    /// already for the scene from `source` is offered.
+    pub fn work_in(&mut self, workplace: Workplace, source: &Source) {
+        let state = workplace.state.clone();
+        self.workplace = workplace;
+        if let Some(folder) = state {
+            self.keep_in(&folder, source);
+        }
+    }
+
+    /// The file of that name; says why not if it can't be had.
+    pub(crate) fn reach(&mut self, name: &str) -> Option<PathBuf> {
+        let reached = self.workplace.reach(name);
+        reached.map_err(|sentence| self.warn(sentence)).ok()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_outside_of_the_folder_is_reached() {
+        let nowhere = Workplace::default();
+        let within = Workplace::within(Path::new("/tmp/mine"));
+        let process = Workplace::of_process(None);
+        for name in ["a.toml", "b/a.toml", "./a.toml", "/tmp/mine/a.toml"] {
+            assert!(nowhere.reach(name).is_err(), "{name}");
+            assert!(within.reach(name).unwrap().starts_with("/tmp/mine"));
+            assert_eq!(process.reach(name), Ok(name.into()));
+        }
+        for name in [
+            "/a.toml",
+            "../a.toml",
+            "b/../../a.toml",
+            "/tmp/mine/../a",
+            "/",
+        ] {
+            assert!(
+                nowhere.reach(name).is_err() && within.reach(name).is_err(),
+                "{name}"
+            );
+        }
+    }
+}
