@@ -5,6 +5,7 @@
 //!
 //! * [`system`]: what differs from one operating system to the next
 //! * [`text`]: text as people, programs and files write it: characters, numbers, lines
+//! * [`door`]: files from outside, opened and read safely
 //! * [`geometry`]: rays and spheres, plain data, checked where it comes in
 //! * [`method`]: the quadratic, and the ways to evaluate it
 //! * [`scene`]: spheres, camera, light; scene files; the built-in scenes
@@ -16,6 +17,7 @@
 //! * [`cli`]: parses the arguments, calls one of the above
 
 pub mod cli;
+pub mod door;
 pub mod explain;
 pub mod explorer;
 pub mod geometry;

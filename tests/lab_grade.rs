@@ -123,7 +123,7 @@ fn a_bad_row_is_named_and_the_others_are_graded() {
     for (line, words) in lines.iter().zip([
         "line 3, column near: `ten`",
         "line 4, column class: `maybe`",
-        "line 5, d is 0,0,0",
+        "line 5, columns dx, dy, dz: 0,0,0",
         "line 6, column oz",
     ]) {
         assert!(line.contains(words), "{line}");

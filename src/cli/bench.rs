@@ -1,5 +1,6 @@
 //! `rayscope bench`: error against run time.
 
+use std::ffi::OsString;
 use std::io;
 use std::time::{Duration, Instant};
 
@@ -29,7 +30,7 @@ pub(super) struct Bench {
 
     /// Instead of families, the rays of this scene's own picture (a file or a built-in name)
     #[arg(long, value_name = "SCENE", conflicts_with = "family")]
-    scene: Option<String>,
+    scene: Option<OsString>,
 
     /// Instead of single rays, whole frames: with the plan and without, from one sphere to a million
     #[arg(long, conflicts_with_all = ["family", "scene", "rays", "plot", "brief", "strict"])]

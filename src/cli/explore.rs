@@ -1,6 +1,7 @@
 //! `rayscope [SCENE]`: opens the explorer.
 
 use std::env;
+use std::ffi::OsString;
 use std::io;
 use std::panic::{self, AssertUnwindSafe};
 use std::path::PathBuf;
@@ -21,7 +22,7 @@ use crate::terminal::{self, Session};
 pub(super) struct Explore {
     /// A scene file, or the name of a built-in scene
     #[arg(default_value = "seed")]
-    scene: String,
+    scene: OsString,
 
     /// How the quadratic is evaluated
     #[arg(long, env = "RAYSCOPE_METHOD", hide_env_values = true, value_parser = choice(&Method::ALL, Method::name), default_value_t = Method::default())]

@@ -11,6 +11,7 @@ mod place;
 mod plan;
 mod print;
 mod progress;
+mod rows;
 mod scenes;
 mod solve;
 mod stress;
@@ -20,7 +21,6 @@ mod variables;
 mod worksheet;
 
 use std::fmt;
-use std::path::Path;
 use std::process::ExitCode;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -144,13 +144,4 @@ fn finite(text: &str) -> Result<f64, String> {
     read::binary64(text)
         .filter(|x| x.is_finite())
         .ok_or_else(|| "expected a finite number, such as 7.5".into())
-}
-
-/// What an input file is called in a sentence; `-` is standard input.
-fn shown(path: &Path) -> String {
-    if path == Path::new("-") {
-        "standard input".to_owned()
-    } else {
-        path.display().to_string()
-    }
 }

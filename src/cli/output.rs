@@ -5,6 +5,7 @@ use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 
 use super::failure::{DONE, Failure, Outcome};
+use crate::door::shown;
 
 /// Writes a report to standard output.
 pub(super) fn write_out(text: &str) -> Outcome {
@@ -34,4 +35,44 @@ pub(super) fn save(path: Option<&Path>, contents: impl FnOnce() -> String) -> Re
 /// Says a sentence on standard error. If nobody can read it, nobody is missing it.
 pub(super) fn complain(sentence: impl fmt::Display) {
     let _ = writeln!(io::stderr(), "rayscope: {sentence}");
+}
+
+/// Complaints about the rows of a file: the first are said, the others counted.
+pub(super) struct Complaints {
+    file: String,
+    count: u64,
+}
+
+impl Complaints {
+    /// How many are said.
+    const SAID: u64 = 100;
+
+    /// No complaint yet about that file.
+    pub fn about(path: &Path) -> Self {
+        Self {
+            file: shown(path),
+            count: 0,
+        }
+    }
+
+    /// Why the row that begins in that line is refused.
+    pub fn row(&mut self, line: u64, reason: impl fmt::Display) {
+        self.count += 1;
+        if self.count <= Self::SAID {
+            complain(format_args!("{}: line {line}, {reason}", self.file));
+        }
+    }
+
+    /// Says how many were not said; whether there were any at all.
+    pub fn end(&self) -> bool {
+        let plural = |n| if n == 1 { "row is" } else { "rows are" };
+        if let Some(more @ 1..) = self.count.checked_sub(Self::SAID) {
+            complain(format_args!(
+                "{}: {more} more {} invalid",
+                self.file,
+                plural(more)
+            ));
+        }
+        self.count > 0
+    }
 }

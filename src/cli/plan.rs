@@ -1,5 +1,6 @@
 //! `rayscope plan`: what a frame of a scene needs, what is left out, and why.
 
+use std::ffi::OsString;
 use std::fmt::Write as _;
 
 use clap::{Args, ValueEnum};
@@ -22,7 +23,7 @@ use crate::text;
 #[derive(Debug, Args)]
 pub(super) struct Plan {
     /// A scene file, or the name of a built-in scene
-    scene: String,
+    scene: OsString,
 
     /// How samples become characters
     #[arg(long, value_parser = choice(&Style::ALL, Style::name), default_value = Style::Half.name())]

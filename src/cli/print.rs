@@ -1,5 +1,6 @@
 //! `rayscope print`: draws a scene once to standard output. No state of a terminal is touched.
 
+use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::io::{self, IsTerminal as _};
 
@@ -21,7 +22,7 @@ use crate::text::Glyphs;
 #[derive(Debug, Args)]
 pub(super) struct Print {
     /// A scene file, or the name of a built-in scene
-    scene: String,
+    scene: OsString,
 
     /// How samples become characters [default: half where there are colours, else ascii]
     #[arg(long, env = "RAYSCOPE_STYLE", hide_env_values = true, value_parser = choice(&Style::ALL, Style::name))]

@@ -1,5 +1,6 @@
 //! `rayscope tour`: the explorer, with the tour open.
 
+use std::ffi::{OsStr, OsString};
 use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::Arc;
@@ -20,7 +21,7 @@ use crate::scene::{Builtin, Source};
 pub(super) struct Tour {
     /// A chapter's name or number; or the file of a chapter, or a folder of them, of your own
     #[arg(default_value = "1")]
-    chapter: String,
+    chapter: OsString,
 
     /// The page to begin with, from 1
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = from_one, allow_negative_numbers = true)]
@@ -94,9 +95,9 @@ pub(super) fn opened(
 }
 
 /// All chapters, and the place of the one that is asked for.
-fn chapters(word: &str) -> Result<(Arc<[Chapter]>, usize), Failure> {
+fn chapters(word: &OsStr) -> Result<(Arc<[Chapter]>, usize), Failure> {
     let chapters = tour::builtin();
-    if let Some(at) = tour::find(&chapters, word) {
+    if let Some(at) = word.to_str().and_then(|word| tour::find(&chapters, word)) {
         return Ok((chapters, at));
     }
     let path = Path::new(word);
@@ -105,7 +106,8 @@ fn chapters(word: &str) -> Result<(Arc<[Chapter]>, usize), Failure> {
     }
     let names: Vec<_> = chapters.iter().map(|c| c.name.as_str()).collect();
     Err(Failure::invalid(format_args!(
-        "{word}: found no such chapter and no such file, expected 1 to {}, or one of {}",
+        "{}: found no such chapter and no such file, expected 1 to {}, or one of {}",
+        path.display(),
         names.len(),
         names.join(", ")
     )))

@@ -1,5 +1,7 @@
 //! `rayscope worksheet`: exercises about pixels of a scene, for pencil and paper.
 
+use std::ffi::OsString;
+
 use clap::{Args, ValueEnum};
 
 use super::print::size;
@@ -13,7 +15,7 @@ use crate::terminal::Capability;
 #[derive(Debug, Args)]
 pub(super) struct Worksheet {
     /// A scene file, or the name of a built-in scene
-    scene: String,
+    scene: OsString,
 
     /// Which pixels are drawn: the same seed gives the same sheet on every machine
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = seed, allow_negative_numbers = true)]
@@ -68,19 +70,18 @@ pub(super) fn run(arguments: &Worksheet) -> Outcome {
 fn text(arguments: &Worksheet) -> Result<String, String> {
     let Worksheet { seed, count, .. } = *arguments;
     let (scene, _) = Scene::open(&arguments.scene).map_err(|e| e.to_string())?;
+    let name = arguments.scene.to_string_lossy();
     if scene.bodies.is_empty() {
         return Err(format!(
-            "{}: the scene has no spheres; expected one to ask about",
-            arguments.scene
+            "{name}: the scene has no spheres; expected one to ask about"
         ));
     }
     let rays = rays(&scene, arguments.size);
-    let see = command(&arguments.scene, &scene, rays.size);
+    let see = command(&name, &scene, rays.size);
     let sheet = worksheet::Worksheet::new(&scene, &rays, seed, count.into(), see);
     if sheet.count() == 0 {
         return Err(format!(
-            "{}: no pixel of it has numbers that can be worked by hand; try another --size",
-            arguments.scene
+            "{name}: no pixel of it has numbers that can be worked by hand; try another --size"
         ));
     }
     let write = |part| match arguments.format {

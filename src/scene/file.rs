@@ -5,8 +5,6 @@
 //! the file beside this one.
 
 use std::fmt;
-use std::fs::File;
-use std::io::{self, Read};
 use std::ops::Range;
 use std::path::Path;
 
@@ -18,60 +16,23 @@ use toml_parser::lexer::TokenKind;
 
 use super::value::{self, Number, Refused};
 use super::{Aim, Body, Camera, Light, Probe, Projection, Scene, Size};
+use crate::door::{self, Expected, FileError, TextPosition};
 use crate::geometry::Sphere;
 
 /// The largest scene file that is read, in bytes; a million spheres need about a third of it.
 pub const LARGEST_FILE: u64 = 256 << 20;
 
-/// A scene file that could not be read, or is no scene: one sentence when displayed.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct FileError {
-    /// The file, as it was named.
-    pub file: String,
-    /// Where in the file; none if the file as a whole is at fault.
-    pub position: Option<Position>,
-    /// Which key, what was found there and what was expected.
-    pub problem: String,
-}
-
-/// A place in a text, counted from 1.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Position {
-    /// The line.
-    pub line: usize,
-    /// The character in that line.
-    pub column: usize,
-}
-
-impl Position {
-    fn of(offset: usize, bytes: &[u8]) -> Self {
-        let before = &bytes[..offset.min(bytes.len())];
-        let lines = before.split(|&byte| byte == b'\n');
-        let last = lines.clone().next_back().unwrap_or_default();
-        Self {
-            line: lines.count(),
-            column: 1 + String::from_utf8_lossy(last).chars().count(),
-        }
-    }
-}
-
-impl fmt::Display for FileError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:", self.file)?;
-        if let Some(Position { line, column }) = self.position {
-            write!(f, "{line}:{column}:")?;
-        }
-        write!(f, " {}", self.problem)
-    }
-}
-
-impl std::error::Error for FileError {}
+/// What a scene is read from.
+const SCENE_FILE: Expected = Expected {
+    what: "a scene file",
+    most: LARGEST_FILE,
+};
 
 impl Scene {
     /// Reads a scene from the text of a scene file; `source_name` is the file's name in errors and,
     /// without its extension, the name of a scene that gives none.
     pub fn parse(text: &str, source_name: &str) -> Result<Self, FileError> {
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+        let text = door::without_mark(text);
         let mut reader = Reader::default();
         pieces(text)
             .try_for_each(|piece| reader.read(&text[piece.clone()], piece.start))
@@ -81,65 +42,21 @@ impl Scene {
 
     /// Reads the scene file at `path`.
     pub fn load(path: &Path) -> Result<Self, FileError> {
-        let name = path.display().to_string();
-        let whole = |problem: String| FileError {
-            file: name.clone(),
-            position: None,
-            problem,
-        };
-        let bytes = read_bounded(path).map_err(|error| whole(in_words(&error)))?;
-        match str::from_utf8(&bytes) {
-            Ok(text) => Self::parse(text, &name),
-            Err(error) => Err(FileError {
-                position: Some(Position::of(error.valid_up_to(), &bytes)),
-                ..whole(format!(
-                    "found the byte 0x{:02x}, expected text in UTF-8",
-                    bytes[error.valid_up_to()]
-                ))
-            }),
-        }
-    }
-}
-
-/// The bytes of a file, unless they are too many; what is no file on a disk has no size to ask for.
-fn read_bounded(path: &Path) -> io::Result<Vec<u8>> {
-    let file = File::open(path)?;
-    let mut bytes = Vec::new();
-    if file.metadata()?.len() <= LARGEST_FILE {
-        file.take(LARGEST_FILE + 1).read_to_end(&mut bytes)?;
-        if bytes.len() as u64 <= LARGEST_FILE {
-            return Ok(bytes);
-        }
-    }
-    Err(io::ErrorKind::FileTooLarge.into())
-}
-
-fn in_words(error: &io::Error) -> String {
-    match error.kind() {
-        io::ErrorKind::NotFound => "found no such file, expected a scene file".to_owned(),
-        io::ErrorKind::IsADirectory => "found a directory, expected a scene file".to_owned(),
-        io::ErrorKind::PermissionDenied => {
-            "found a file that may not be read, expected a scene file".to_owned()
-        }
-        io::ErrorKind::FileTooLarge => format!(
-            "found more than {0} MiB, expected a scene file of at most {0} MiB",
-            LARGEST_FILE >> 20
-        ),
-        _ => format!("this file cannot be read: {error}"),
+        Self::parse(&SCENE_FILE.text(path)?, &path.display().to_string())
     }
 }
 
 /// Something wrong at a byte of the file, not yet turned into line and column.
-struct Fault {
+struct SceneFault {
     at: Option<usize>,
     problem: String,
 }
 
-impl Fault {
+impl SceneFault {
     fn locate(self, text: &str, file: &str) -> FileError {
         FileError {
             file: file.to_owned(),
-            position: self.at.map(|at| Position::of(at, text.as_bytes())),
+            position: self.at.map(|at| TextPosition::of(at, text.as_bytes())),
             problem: self.problem,
         }
     }
@@ -237,11 +154,11 @@ struct Section<'a, 't> {
 
 impl<'a, 't> Section<'a, 't> {
     /// The table that `value` holds; refuses another kind of value and keys that are not known.
-    fn open(place: Place, base: usize, value: &'a Value<'t>) -> Result<Self, Fault> {
+    fn open(place: Place, base: usize, value: &'a Value<'t>) -> Result<Self, SceneFault> {
         let at = base + value.span().start;
         let Some(entries) = value.get_ref().as_table() else {
             let refused = Refused::new(kind_of(value), "a table");
-            return Err(Fault {
+            return Err(SceneFault {
                 at: Some(at),
                 problem: format!("{place}: {refused}"),
             });
@@ -256,7 +173,7 @@ impl<'a, 't> Section<'a, 't> {
         Ok(section)
     }
 
-    fn refuse_unknown_keys(&self) -> Result<(), Fault> {
+    fn refuse_unknown_keys(&self) -> Result<(), SceneFault> {
         let known = self.place.keys();
         let unknown = self
             .entries
@@ -274,7 +191,7 @@ impl<'a, 't> Section<'a, 't> {
             Place::Top => refused.to_string(),
             place => format!("{place}: {refused}"),
         };
-        Err(Fault {
+        Err(SceneFault {
             at: Some(self.base + key.span().start),
             problem,
         })
@@ -285,8 +202,8 @@ impl<'a, 't> Section<'a, 't> {
         self.entries.get(key)
     }
 
-    fn fault(&self, at: Option<&Value>, key: &str, problem: impl fmt::Display) -> Fault {
-        Fault {
+    fn fault(&self, at: Option<&Value>, key: &str, problem: impl fmt::Display) -> SceneFault {
+        SceneFault {
             at: Some(at.map_or(self.at, |value| self.base + value.span().start)),
             problem: format!("{}: {problem}", self.place.key(key)),
         }
@@ -297,28 +214,28 @@ impl<'a, 't> Section<'a, 't> {
         &self,
         key: &str,
         read: impl FnOnce(&'a Value<'t>) -> Result<T, Refused>,
-    ) -> Result<Option<T>, Fault> {
+    ) -> Result<Option<T>, SceneFault> {
         self.get(key)
             .map(|value| read(value).map_err(|refused| self.fault(Some(value), key, refused)))
             .transpose()
     }
 
-    fn required<T>(&self, key: &str, expected: &str, found: Option<T>) -> Result<T, Fault> {
+    fn required<T>(&self, key: &str, expected: &str, found: Option<T>) -> Result<T, SceneFault> {
         found.ok_or_else(|| self.fault(None, key, format_args!("missing, expected {expected}")))
     }
 
-    fn line(&self, key: &str) -> Result<Option<&'a str>, Fault> {
+    fn line(&self, key: &str) -> Result<Option<&'a str>, SceneFault> {
         self.optional(key, |value| match value.get_ref().as_str() {
             Some(text) => value::line(text),
             None => Err(Refused::new(kind_of(value), "text in quotation marks")),
         })
     }
 
-    fn number(&self, key: &str, kind: Number) -> Result<Option<f32>, Fault> {
+    fn number(&self, key: &str, kind: Number) -> Result<Option<f32>, SceneFault> {
         self.optional(key, |value| number(value, kind))
     }
 
-    fn vector(&self, key: &str) -> Result<Option<Vec3>, Fault> {
+    fn vector(&self, key: &str) -> Result<Option<Vec3>, SceneFault> {
         const EXPECTED: &str = "a list of three numbers, [x, y, z]";
         self.list(key, ["x", "y", "z"], EXPECTED, |value| {
             number(value, Number::Coordinate)
@@ -333,7 +250,7 @@ impl<'a, 't> Section<'a, 't> {
         names: [&str; N],
         expected: &'static str,
         read: impl Fn(&'a Value<'t>) -> Result<T, Refused>,
-    ) -> Result<Option<[T; N]>, Fault> {
+    ) -> Result<Option<[T; N]>, SceneFault> {
         let Some(list) = self.get(key) else {
             return Ok(None);
         };
@@ -413,7 +330,7 @@ struct Reader {
 
 impl Reader {
     /// Reads one piece, which begins at byte `base` of the file.
-    fn read(&mut self, piece: &str, base: usize) -> Result<(), Fault> {
+    fn read(&mut self, piece: &str, base: usize) -> Result<(), SceneFault> {
         let root = DeTable::parse(piece).map_err(|error| no_toml(&error, piece, base))?;
         let root = Section {
             place: Place::Top,
@@ -447,16 +364,16 @@ impl Reader {
     }
 
     /// The scene, once all is read.
-    fn finish(self, source_name: &str) -> Result<Scene, Fault> {
+    fn finish(self, source_name: &str) -> Result<Scene, SceneFault> {
         let Some((camera, pixels)) = self.camera else {
-            return Err(Fault {
+            return Err(SceneFault {
                 at: None,
                 problem: "camera: missing, expected a table [camera] with position and look_at"
                     .to_owned(),
             });
         };
         for (n, (probe, at)) in self.probes.iter().enumerate() {
-            check_pixel(probe.aim, pixels).map_err(|refused| Fault {
+            check_pixel(probe.aim, pixels).map_err(|refused| SceneFault {
                 at: Some(*at),
                 problem: format!("{}: {refused}", Place::Probe(n + 1).key("pixel")),
             })?;
@@ -473,22 +390,22 @@ impl Reader {
     }
 }
 
-fn no_toml(error: &toml::de::Error, piece: &str, base: usize) -> Fault {
+fn no_toml(error: &toml::de::Error, piece: &str, base: usize) -> SceneFault {
     let span = error.span().unwrap_or_default();
     let near = match piece.get(span.clone()).map(str::trim) {
         None | Some("") => String::new(),
         Some(text) => format!(" at {}", value::quoted(text)),
     };
-    Fault {
+    SceneFault {
         at: Some(base + span.start),
         problem: format!("this is not TOML{near}: {}", error.message()),
     }
 }
 
-fn refuse_second(section: &Section, seen: bool) -> Result<(), Fault> {
+fn refuse_second(section: &Section, seen: bool) -> Result<(), SceneFault> {
     if seen {
         let problem = format!("{}: found a second table, expected only one", section.place);
-        return Err(Fault {
+        return Err(SceneFault {
             at: Some(section.at),
             problem,
         });
@@ -504,7 +421,7 @@ fn stem(source_name: &str) -> String {
         .replace(char::is_control, "")
 }
 
-fn tables<'a, 't>(root: &Section<'a, 't>, key: &str) -> Result<&'a [Value<'t>], Fault> {
+fn tables<'a, 't>(root: &Section<'a, 't>, key: &str) -> Result<&'a [Value<'t>], SceneFault> {
     match root.get(key) {
         None => Ok(&[]),
         Some(value) => value
@@ -521,7 +438,7 @@ fn tables<'a, 't>(root: &Section<'a, 't>, key: &str) -> Result<&'a [Value<'t>], 
     }
 }
 
-fn camera(section: &Section) -> Result<(Camera, Option<Size>), Fault> {
+fn camera(section: &Section) -> Result<(Camera, Option<Size>), SceneFault> {
     const POINT: &str = "a list of three numbers, [x, y, z]";
     let position = section.required("position", POINT, section.vector("position")?)?;
     let look_at = section.required("look_at", POINT, section.vector("look_at")?)?;
@@ -547,7 +464,7 @@ fn camera(section: &Section) -> Result<(Camera, Option<Size>), Fault> {
     ))
 }
 
-fn projection(section: &Section) -> Result<Projection, Fault> {
+fn projection(section: &Section) -> Result<Projection, SceneFault> {
     const NAMES: [&str; 2] = ["perspective", "orthographic"];
     let orthographic = section.optional("projection", |value| {
         let found = value.get_ref().as_str();
@@ -582,7 +499,7 @@ fn projection(section: &Section) -> Result<Projection, Fault> {
 const FIELD_OF_VIEW: f32 = 45.0;
 
 /// Refuses a key that only the other projection has.
-fn refuse_other(section: &Section, key: &str, other: &str) -> Result<(), Fault> {
+fn refuse_other(section: &Section, key: &str, other: &str) -> Result<(), SceneFault> {
     match section.get(key) {
         None => Ok(()),
         Some(value) => {
@@ -593,13 +510,13 @@ fn refuse_other(section: &Section, key: &str, other: &str) -> Result<(), Fault> 
     }
 }
 
-fn light(section: &Section) -> Result<Light, Fault> {
+fn light(section: &Section) -> Result<Light, SceneFault> {
     let expected = "a list of three numbers, [x, y, z]";
     let position = section.required("position", expected, section.vector("position")?)?;
     Ok(Light { position })
 }
 
-fn body(section: &Section) -> Result<Body, Fault> {
+fn body(section: &Section) -> Result<Body, SceneFault> {
     let expected = "a list of three numbers, [x, y, z]";
     let center = section.required("center", expected, section.vector("center")?)?;
     let radius = section.number("radius", Number::Radius)?;
@@ -616,7 +533,7 @@ fn body(section: &Section) -> Result<Body, Fault> {
 }
 
 /// A probe, and where in the file its aim stands.
-fn probe(section: &Section) -> Result<(Probe, usize), Fault> {
+fn probe(section: &Section) -> Result<(Probe, usize), SceneFault> {
     let pixel = section.list(
         "pixel",
         ["x", "y"],

@@ -12,7 +12,7 @@ mod write;
 
 pub use builtin::Builtin;
 pub use camera::{Camera, PixelShape, Projection, Rays, Size};
-pub use file::{FileError, LARGEST_FILE, Position};
+pub use file::LARGEST_FILE;
 pub use open::Source;
 
 use glam::Vec3;

@@ -2,6 +2,7 @@
 //!
 //! Nothing else in the crate asks which system it is built for.
 
+pub mod file;
 #[cfg_attr(unix, path = "unix.rs")]
 #[cfg_attr(windows, path = "windows.rs")]
 mod platform;

@@ -10,6 +10,7 @@ use rustix::stdio::stdin;
 
 use super::HUNG_UP;
 use super::signals::{self, Asked, Signals};
+use crate::door::without_mark;
 use crate::explorer::{Explorer, Reply, Waker};
 
 /// No line of a person or of a sane script is longer, in bytes.
@@ -109,6 +110,8 @@ struct Lines {
     /// The line at hand is too long: the rest of it is passed over.
     is_skipping: bool,
     is_over: bool,
+    /// Lines taken so far: the first may have a byte order mark before it.
+    taken: usize,
     /// It is a terminal, whose end is no end of a script.
     is_terminal: bool,
 }
@@ -120,6 +123,7 @@ impl Lines {
             pending: Vec::new(),
             is_skipping: false,
             is_over: false,
+            taken: 0,
             is_terminal: io::stdin().is_terminal(),
         })
     }
@@ -156,7 +160,14 @@ impl Lines {
         if std::mem::take(&mut self.is_skipping) || line.len() > LONGEST_LINE {
             return Some(Heard::TooLong);
         }
-        Some(Heard::Line(String::from_utf8_lossy(&line).into_owned()))
+        let text = String::from_utf8_lossy(&line);
+        self.taken += 1;
+        let text = if self.taken == 1 {
+            without_mark(&text)
+        } else {
+            &text
+        };
+        Some(Heard::Line(text.to_owned()))
     }
 
     /// Waits for input or a signal; the exit status if it is over.

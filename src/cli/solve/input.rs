@@ -1,33 +1,9 @@
-//! Numbers as people and files write them, read into rays and spheres.
+//! The numbers of `--ray` and `--sphere`.
 
 use glam::Vec3;
 
+use super::super::rows;
 use crate::geometry::{Ray, Sphere};
-use crate::text::read;
-
-/// A number rounded once to binary32; refused with its text if it is none, or beyond the range.
-pub(in crate::cli) fn number(field: &[u8]) -> Result<f32, String> {
-    let field = field.trim_ascii();
-    match str::from_utf8(field).ok().and_then(read::binary32) {
-        Some(number) if f32::is_finite(number) => Ok(number),
-        number => Err(refusal(field, number)),
-    }
-}
-
-/// Why a field is no number that will do.
-fn refusal(field: &[u8], number: Option<f32>) -> String {
-    let text = String::from_utf8_lossy(field);
-    let shown: String = text.chars().take(40).collect();
-    let has_digits = text.contains(|c: char| c.is_ascii_digit());
-    match number {
-        None if text.is_empty() => "nothing there; expected a number".to_owned(),
-        None => format!("`{shown}` is not a number; expected one like -1.5e3 or 0x1.8p3"),
-        Some(x) if x.is_infinite() && has_digits => {
-            format!("{shown} is past the range of binary32; expected at most 3.4028235e38")
-        }
-        Some(_) => format!("{shown} is no finite number; expected one"),
-    }
-}
 
 /// The ray of `--ray` and the sphere of `--sphere`, or which of the two, which of its numbers, and
 /// what was expected.
@@ -54,7 +30,7 @@ fn list<const N: usize>(option: &str, text: &str, names: [&str; N]) -> Result<[f
     }
     let mut numbers = [0.0; N];
     for ((number, field), name) in numbers.iter_mut().zip(fields).zip(names) {
-        *number = self::number(field.as_bytes())
+        *number = rows::number(field.as_bytes())
             .map_err(|reason| format!("{option}, {name}: {reason}"))?;
     }
     Ok(numbers)

@@ -3,12 +3,9 @@
 mod batch;
 mod input;
 mod json;
-mod rows;
 mod single;
 
 use std::path::PathBuf;
-
-pub(super) use input::number;
 
 use super::failure::{DONE, INVALID};
 use super::{Failure, Outcome, choice, write_out};

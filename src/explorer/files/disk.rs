@@ -2,8 +2,17 @@
 
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+
+use crate::door::{self, Expected};
+use crate::scene::LARGEST_FILE;
+
+/// Whatever is in the place of a scene file.
+const ANY: Expected = Expected {
+    what: "a scene file",
+    most: LARGEST_FILE,
+};
 
 /// A file as it was when it was last read or written.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -17,7 +26,7 @@ impl Stamp {
     pub fn of(path: &Path) -> Option<Self> {
         Some(Self {
             path: path.to_owned(),
-            contents: digest(&fs::read(path).ok()?),
+            contents: digest(&ANY.bytes(path).ok()?),
         })
     }
 
@@ -28,7 +37,7 @@ impl Stamp {
 
     /// Whether the file still holds what was read or written; a file that is gone has not changed.
     pub fn is_current(&self) -> bool {
-        match fs::read(&self.path) {
+        match ANY.bytes(&self.path) {
             Ok(now) => digest(&now) == self.contents,
             Err(_) => !self.path.exists(),
         }
@@ -43,26 +52,30 @@ fn digest(bytes: &[u8]) -> u64 {
 
 /// Replaces the file by `text`, whole or not at all; keeps its permissions, follows a link.
 pub fn save(path: &Path, text: &str) -> Result<Stamp, String> {
-    write(path, text).map_err(|e| format!("{}: not saved: {e}", path.display()))?;
+    write(path, text).map_err(|e| {
+        let reason = match e.kind() {
+            io::ErrorKind::NotFound => "its folder does not exist".to_owned(),
+            _ => door::plain(&e),
+        };
+        format!("{}: not saved: {reason}", path.display())
+    })?;
     Ok(Stamp {
         path: path.to_owned(),
         contents: digest(text.as_bytes()),
     })
 }
 
-fn write(path: &Path, text: &str) -> std::io::Result<()> {
+fn write(path: &Path, text: &str) -> io::Result<()> {
     // A link is kept: what it points at is replaced.
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
     if fs::metadata(&target).is_ok_and(|there| !there.is_file()) {
-        return Err(std::io::Error::other(
-            "it is no file that could be replaced",
-        ));
+        return Err(io::Error::other("it is no file that could be replaced"));
     }
     // The name of the file that takes its place says nothing to the person.
     replace(&target, text).map_err(|e| e.kind().into())
 }
 
-fn replace(target: &Path, text: &str) -> std::io::Result<()> {
+fn replace(target: &Path, text: &str) -> io::Result<()> {
     let folder = target.parent().filter(|p| !p.as_os_str().is_empty());
     let mut builder = tempfile::Builder::new();
     builder.prefix(".rayscope-");

@@ -7,11 +7,18 @@ use std::path::{Path, PathBuf};
 use std::process;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
+use crate::door::Expected;
 use crate::explorer::Explorer;
 use crate::explorer::edit::document::Change;
 use crate::explorer::link::command_line;
 use crate::explorer::mode::{Mode, Question};
-use crate::scene::{Builtin, Scene, Source};
+use crate::scene::{Builtin, LARGEST_FILE, Scene, Source};
+
+/// A file that was kept: a scene, and a few lines before it.
+const KEPT: Expected = Expected {
+    what: "a scene file",
+    most: LARGEST_FILE,
+};
 
 /// What the line starts with that says which scene a file belongs to.
 const BELONGS: &str = "# scene: ";
@@ -153,7 +160,7 @@ impl Rescue {
 
 /// The scene that a kept file belongs to.
 fn owner(path: &Path) -> Option<String> {
-    let text = fs::read_to_string(path).ok()?;
+    let text = KEPT.text(path).ok()?;
     let mut lines = text.lines().filter_map(|l| l.strip_prefix(BELONGS));
     lines.next().map(str::to_owned)
 }

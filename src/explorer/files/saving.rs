@@ -1,6 +1,5 @@
 //! Opening and saving, and what is asked before something would be lost.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::explorer::Explorer;
@@ -70,14 +69,7 @@ impl Explorer {
             return Ok((builtin.scene(), Source::Builtin(builtin)));
         }
         let path = self.workplace.reach(name)?;
-        // A pipe or a device could be waited for without end.
-        let odd = |m: fs::Metadata| !m.is_file() && !m.is_dir();
-        if fs::metadata(&path).is_ok_and(odd) {
-            return Err(format!(
-                "{name}: found no regular file, expected a scene file"
-            ));
-        }
-        Scene::open(&path.to_string_lossy()).map_err(|e| e.to_string())
+        Scene::open(path).map_err(|e| e.to_string())
     }
 
     pub(crate) fn save(&mut self) {

@@ -3,6 +3,7 @@
 use std::path::{Component, Path, PathBuf};
 
 use super::disk;
+use crate::door::typed;
 use crate::explorer::Explorer;
 use crate::lab::BenchQueue;
 use crate::scene::Source;
@@ -62,7 +63,7 @@ impl Workplace {
 
     /// The file that a person means by this name, or why they can't have it.
     pub(crate) fn reach(&self, name: &str) -> Result<PathBuf, String> {
-        let path = self.folder.join(name);
+        let path = self.folder.join(typed(name));
         let leads_out = path.components().any(|part| part == Component::ParentDir);
         let is_inside = path.starts_with(&self.folder) && !leads_out;
         let has_folder = !self.folder.as_os_str().is_empty();

@@ -1,9 +1,10 @@
 //! The pixel under the cursor to take away: copied, shown, or appended to a file.
 
-use std::fs::{self, OpenOptions};
+use std::fs::OpenOptions;
 use std::io::Write as _;
 use std::path::Path;
 
+use crate::door::{self, Expected};
 use crate::explorer::key::Key;
 use crate::explorer::mode::Mode;
 use crate::explorer::{Explorer, Request};
@@ -73,19 +74,17 @@ impl Explorer {
     }
 }
 
+/// The file that rows are appended to.
+const CASES: Expected = Expected {
+    what: "a CSV file",
+    most: 256 << 20,
+};
+
 /// Appends a row to a file that has the header of rows; how many rows it has then.
 fn append(path: &Path, row: &str) -> Result<usize, String> {
-    // To open a pipe or a device for reading may wait for ever, or do things.
-    if let Ok(found) = fs::metadata(path)
-        && !found.is_file()
-    {
-        return Err("it is no regular file".into());
-    }
-    let before = match fs::read_to_string(path) {
-        Ok(text) => text,
-        Err(error) if error.kind() == std::io::ErrorKind::NotFound => String::new(),
-        Err(error) => return Err(error.to_string()),
-    };
+    let mut file = door::regular(OpenOptions::new().append(true).create(true), path)
+        .map_err(|e| e.to_string())?;
+    let before = CASES.text(path).map_err(|e| e.problem)?;
     let first = before.lines().next();
     if first.is_some_and(|line| line.trim_end() != HEADER) {
         return Err(format!("its first line is not {HEADER}"));
@@ -99,11 +98,6 @@ fn append(path: &Path, row: &str) -> Result<usize, String> {
     }
     added += row;
     added.push('\n');
-    let mut file = OpenOptions::new()
-        .append(true)
-        .create(true)
-        .open(path)
-        .map_err(|e| e.to_string())?;
     file.write_all(added.as_bytes())
         .map_err(|e| e.to_string())?;
     let rows = before

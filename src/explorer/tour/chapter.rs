@@ -13,13 +13,14 @@ use glam::Vec3;
 use serde::Deserialize;
 use toml::Spanned;
 
+use crate::door::{Expected, FileError, TextPosition};
 use crate::explorer::arrival::Target;
 use crate::explorer::command::{Command, choice};
 use crate::explorer::edit::field;
 use crate::explorer::panel::Panel;
 use crate::method::Method;
 use crate::render::{Style, View};
-use crate::scene::{Builtin, FileError, Position, Scene, Size, Source};
+use crate::scene::{Builtin, Scene, Size, Source};
 
 /// A walk through some pages, in their order.
 #[derive(Debug, Clone, PartialEq)]
@@ -124,17 +125,18 @@ pub fn builtin() -> Arc<[Chapter]> {
         .collect()
 }
 
+/// What a chapter is read from. Its tree takes some thirty times as much memory.
+const CHAPTER: Expected = Expected {
+    what: "a chapter of a tour",
+    most: 16 << 20,
+};
+
 /// The tour in a chapter's file, or in a folder of them, in the order of their names.
 pub fn load(path: &Path) -> Result<Arc<[Chapter]>, FileError> {
-    let refused = |problem: String| FileError {
-        file: path.display().to_string(),
-        position: None,
-        problem,
-    };
     if !path.is_dir() {
         return Ok([Chapter::load(path)?].into());
     }
-    let entries = fs::read_dir(path).map_err(|e| refused(format!("not read: {e}")))?;
+    let entries = fs::read_dir(path).map_err(|e| CHAPTER.refusal(path, &e))?;
     let mut files: Vec<_> = entries
         .flatten()
         .map(|entry| entry.path())
@@ -143,7 +145,7 @@ pub fn load(path: &Path) -> Result<Arc<[Chapter]>, FileError> {
     files.sort();
     if files.is_empty() {
         let problem = "found no file that ends in .toml, expected a folder of chapters";
-        return Err(refused(problem.into()));
+        return Err(FileError::whole(path, problem));
     }
     files.iter().map(|file| Chapter::load(file)).collect()
 }
@@ -157,13 +159,8 @@ pub fn find(chapters: &[Chapter], word: &str) -> Option<usize> {
 
 impl Chapter {
     fn load(path: &Path) -> Result<Self, FileError> {
-        let file = path.display().to_string();
-        let text = fs::read_to_string(path).map_err(|e| FileError {
-            file: file.clone(),
-            position: None,
-            problem: format!("not read: {e}"),
-        })?;
-        let chapter = Self::parse(&text, &file, path.parent())?;
+        let text = CHAPTER.text(path)?;
+        let chapter = Self::parse(&text, &path.display().to_string(), path.parent())?;
         Ok(Self {
             file: Some(path.to_owned()),
             ..chapter
@@ -174,7 +171,7 @@ impl Chapter {
     pub fn parse(text: &str, file: &str, folder: Option<&Path>) -> Result<Self, FileError> {
         let located = |span: Option<Range<usize>>, problem: String| FileError {
             file: file.to_owned(),
-            position: span.map(|span| position(text, span.start)),
+            position: span.map(|span| TextPosition::of(span.start, text.as_bytes())),
             problem,
         };
         let written: ChapterFile = toml::from_str(text)
@@ -183,7 +180,7 @@ impl Chapter {
         for page in written.page {
             let before = pages.last().map(|p| &p.state);
             let made = page.into_page(before, folder);
-            pages.push(made.map_err(|Fault { at, problem }| {
+            pages.push(made.map_err(|PageFault { at, problem }| {
                 let number = pages.len() + 1;
                 located(Some(at..at), format!("page {number}, {problem}"))
             })?);
@@ -209,16 +206,6 @@ fn name_of(file: &str) -> String {
     match rest.strip_prefix('-') {
         Some(name) if !name.is_empty() => name.to_owned(),
         _ => stem.into_owned(),
-    }
-}
-
-/// Line and column of a byte, both from 1.
-fn position(text: &str, offset: usize) -> Position {
-    let before = text.get(..offset).unwrap_or(text);
-    let line_start = before.rfind('\n').map_or(0, |at| at + 1);
-    Position {
-        line: 1 + before.matches('\n').count(),
-        column: 1 + before[line_start..].chars().count(),
     }
 }
 
@@ -260,12 +247,12 @@ struct PageFile {
 }
 
 /// What is wrong with a page, and at which byte of the file.
-struct Fault {
+struct PageFault {
     at: usize,
     problem: String,
 }
 
-impl Fault {
+impl PageFault {
     fn at<T>(place: &Spanned<T>, problem: impl Into<String>) -> Self {
         Self {
             at: place.span().start,
@@ -275,11 +262,11 @@ impl Fault {
 }
 
 impl PageFile {
-    fn into_page(self, before: Option<&State>, folder: Option<&Path>) -> Result<Page, Fault> {
+    fn into_page(self, before: Option<&State>, folder: Option<&Path>) -> Result<Page, PageFault> {
         let state = self.state(before, folder)?;
         let text = paragraphs(self.text.get_ref());
         if text.is_empty() {
-            return Err(Fault::at(
+            return Err(PageFault::at(
                 &self.text,
                 "text: found nothing, expected a sentence",
             ));
@@ -291,7 +278,7 @@ impl PageFile {
         })
     }
 
-    fn state(&self, before: Option<&State>, folder: Option<&Path>) -> Result<State, Fault> {
+    fn state(&self, before: Option<&State>, folder: Option<&Path>) -> Result<State, PageFault> {
         let mut state = match (&self.scene, before) {
             (Some(scene), _) => {
                 let (scene, source) = open_scene(scene, folder)?;
@@ -303,7 +290,7 @@ impl PageFile {
             (None, Some(before)) => before.clone(),
             (None, None) => {
                 let problem = "scene: missing, expected one on the first page";
-                return Err(Fault::at(&self.text, problem));
+                return Err(PageFault::at(&self.text, problem));
             }
         };
         (state.predict, state.board) = (self.predict, self.board);
@@ -315,7 +302,7 @@ impl PageFile {
                     "sphere: found {}, expected 1 to {count}",
                     at.wrapping_add(1)
                 );
-                return Err(Fault::at(number, problem));
+                return Err(PageFault::at(number, problem));
             }
             state.sphere = Some(at);
         }
@@ -342,30 +329,30 @@ impl PageFile {
         Ok(state)
     }
 
-    fn set_numbers(&self, state: &mut State) -> Result<(), Fault> {
+    fn set_numbers(&self, state: &mut State) -> Result<(), PageFault> {
         if self.set.is_empty() {
             return Ok(());
         }
         let mut numbers = Vec::new();
         for line in &self.set {
             let command = Command::parse(&format!("set {}", line.get_ref()));
-            if let Command::Set(field, value) = command.map_err(|e| Fault::at(line, e))? {
+            if let Command::Set(field, value) = command.map_err(|e| PageFault::at(line, e))? {
                 numbers.push((field, value));
             }
         }
         let scene = field::set_all(&state.scene, state.selected(), &numbers);
-        let refused = |e| Fault::at(&self.set[0], format!("set: {e}"));
+        let refused = |e| PageFault::at(&self.set[0], format!("set: {e}"));
         state.scene = Arc::new(scene.map_err(refused)?);
         Ok(())
     }
 
-    fn target(&self, scene: &Scene) -> Result<Option<Target>, Fault> {
+    fn target(&self, scene: &Scene) -> Result<Option<Target>, PageFault> {
         match (&self.pixel, &self.point) {
             (None, None) => Ok(None),
             (None, Some(point)) => Ok(Some(Target::Point(Vec3::from(*point.get_ref())))),
             (Some(_), Some(point)) => {
                 let problem = "point: found beside pixel, expected only one of the two";
-                Err(Fault::at(point, problem))
+                Err(PageFault::at(point, problem))
             }
             (Some(pixel), None) => {
                 let [x, y] = *pixel.get_ref();
@@ -373,11 +360,11 @@ impl PageFile {
                     Some(Size { width, height }) if x < width && y < height => {
                         Ok(Some(Target::Pixel(x, y)))
                     }
-                    Some(size) => Err(Fault::at(
+                    Some(size) => Err(PageFault::at(
                         pixel,
                         format!("pixel: found [{x}, {y}], expected one of {size}, from [0, 0]"),
                     )),
-                    None => Err(Fault::at(
+                    None => Err(PageFault::at(
                         pixel,
                         "pixel: the picture of this scene fills its room, expected a point, [x, y, z]",
                     )),
@@ -428,13 +415,13 @@ impl State {
 fn open_scene(
     word: &Spanned<String>,
     folder: Option<&Path>,
-) -> Result<(Scene, Option<Source>), Fault> {
+) -> Result<(Scene, Option<Source>), PageFault> {
     let text = word.get_ref();
     let refused = |e: FileError| {
         let place = e
             .position
             .map_or(String::new(), |p| format!(", line {} of it", p.line));
-        Fault::at(word, format!("scene{place}: {}", e.problem))
+        PageFault::at(word, format!("scene{place}: {}", e.problem))
     };
     if text.contains('\n') {
         return Ok((Scene::parse(text, "the tour").map_err(refused)?, None));
@@ -443,7 +430,7 @@ fn open_scene(
         return Ok((builtin.scene(), Some(Source::Builtin(builtin))));
     }
     let file = folder.map_or_else(|| text.into(), |folder| folder.join(text));
-    let (scene, source) = Scene::open(&file.display().to_string()).map_err(refused)?;
+    let (scene, source) = Scene::open(&file).map_err(refused)?;
     Ok((scene, Some(source)))
 }
 
@@ -452,9 +439,9 @@ fn named<T: Copy>(
     what: &str,
     all: impl IntoIterator<Item = T>,
     name: impl Fn(T) -> &'static str,
-) -> Result<Option<T>, Fault> {
+) -> Result<Option<T>, PageFault> {
     word.map(|word| {
-        choice(word.get_ref(), what, all, name).map_err(|problem| Fault::at(word, problem))
+        choice(word.get_ref(), what, all, name).map_err(|problem| PageFault::at(word, problem))
     })
     .transpose()
 }

@@ -8,14 +8,13 @@ use std::io::{self, BufRead, Read};
 
 use csv_core::{ReadRecordResult, ReaderBuilder, Terminator};
 
-/// The most bytes that a row may have.
-pub(super) const LONGEST: usize = 1 << 16;
+use crate::door::BYTE_ORDER_MARK;
 
-/// A byte order mark, which some programs write before the header.
-const BOM: &[u8] = "\u{feff}".as_bytes();
+/// The most bytes that a row may have.
+pub const LONGEST: usize = 1 << 16;
 
 /// Reads rows one by one.
-pub(super) struct Rows<R> {
+pub struct CsvRows<R> {
     input: R,
     /// Lines that were read in search of a closing quote and are rows of their own, each with
     /// whether its end was cut off.
@@ -27,7 +26,7 @@ pub(super) struct Rows<R> {
 
 /// One row: its text, and its fields without their quotes.
 #[derive(Debug, Default)]
-pub(super) struct Row {
+pub struct CsvRow {
     /// The number of its first line, from 1.
     pub line: u64,
     /// The text as it was read, line ends inside it and at its end included.
@@ -42,14 +41,14 @@ pub(super) struct Row {
 }
 
 /// A line that was added to a row's text.
-struct Taken {
+struct LineTaken {
     /// Whether there was a line.
     any: bool,
     /// Whether it was longer than `LONGEST` and is cut there.
     cut: bool,
 }
 
-impl<R: BufRead> Rows<R> {
+impl<R: BufRead> CsvRows<R> {
     /// The rows of `input`, from its first line.
     pub fn new(input: R) -> Self {
         Self {
@@ -65,18 +64,18 @@ impl<R: BufRead> Rows<R> {
 
     /// Reads the next row that is not an empty line, of `expected` fields if it extends over
     /// several lines; false at the end.
-    pub fn read(&mut self, row: &mut Row, expected: Option<usize>) -> io::Result<bool> {
+    pub fn read(&mut self, row: &mut CsvRow, expected: Option<usize>) -> io::Result<bool> {
         loop {
             row.line = self.lines + 1;
             row.text.clear();
-            let Taken { any, cut } = self.take_line(&mut row.text)?;
+            let LineTaken { any, cut } = self.take_line(&mut row.text)?;
             if !any {
                 return Ok(false);
             }
             row.cut = cut;
             self.lines += 1;
-            if row.line == 1 && row.text.starts_with(BOM) {
-                row.text.drain(..BOM.len());
+            if row.line == 1 && row.text.starts_with(BYTE_ORDER_MARK) {
+                row.text.drain(..BYTE_ORDER_MARK.len());
             }
             if !row.bare_text().is_empty() {
                 break;
@@ -93,10 +92,10 @@ impl<R: BufRead> Rows<R> {
     }
 
     /// Appends the next line with its end, cut if it is too long.
-    fn take_line(&mut self, text: &mut Vec<u8>) -> io::Result<Taken> {
+    fn take_line(&mut self, text: &mut Vec<u8>) -> io::Result<LineTaken> {
         if let Some((line, cut)) = self.held_back.pop_front() {
             text.extend(line);
-            return Ok(Taken { any: true, cut });
+            return Ok(LineTaken { any: true, cut });
         }
         let most = LONGEST as u64 + 1;
         let taken = (&mut self.input).take(most).read_until(b'\n', text)?;
@@ -113,7 +112,7 @@ impl<R: BufRead> Rows<R> {
             }
         }
         let any = taken > 0;
-        Ok(Taken { any, cut })
+        Ok(LineTaken { any, cut })
     }
 
     /// Passes over what is left of a line, its end included; false if it has none.
@@ -133,12 +132,12 @@ impl<R: BufRead> Rows<R> {
     }
 
     /// Looks in the lines after an open quote for its end; if that makes no row, leaves them.
-    fn read_on(&mut self, row: &mut Row, expected: Option<usize>) -> io::Result<()> {
+    fn read_on(&mut self, row: &mut CsvRow, expected: Option<usize>) -> io::Result<()> {
         let first = row.text.len();
         let mut starts = vec![first];
         let mut last_is_cut = false;
         while row.text.len() <= LONGEST {
-            let Taken { any, cut } = self.take_line(&mut row.text)?;
+            let LineTaken { any, cut } = self.take_line(&mut row.text)?;
             if !any {
                 break;
             }
@@ -168,7 +167,7 @@ impl<R: BufRead> Rows<R> {
     }
 
     /// Finds the fields of the row's text, and whether its quotes are closed.
-    fn split(&mut self, row: &mut Row) {
+    fn split(&mut self, row: &mut CsvRow) {
         let text = &row.text[..row.bare_length()];
         // Room for a comma at each place, and for the end.
         if row.ends.len() < text.len() + 2 {
@@ -197,7 +196,7 @@ impl<R: BufRead> Rows<R> {
     }
 }
 
-impl Row {
+impl CsvRow {
     /// The text without the line end after it.
     pub fn bare_text(&self) -> &[u8] {
         &self.text[..self.bare_length()]
@@ -234,7 +233,7 @@ impl Row {
 }
 
 /// Appends a field to a row of CSV, in quotes if it needs them.
-pub(super) fn push_field(row: &mut Vec<u8>, contents: &[u8]) {
+pub fn push_field(row: &mut Vec<u8>, contents: &[u8]) {
     if !contents.iter().any(|b| b"\",\r\n".contains(b)) {
         row.extend_from_slice(contents);
         return;
@@ -255,8 +254,8 @@ mod tests {
 
     /// Line, fields and whether they are closed, of each row of a file of `count` columns.
     fn rows(text: &str, count: usize) -> Vec<(u64, Vec<String>, bool)> {
-        let mut rows = Rows::new(text.as_bytes());
-        let mut row = Row::default();
+        let mut rows = CsvRows::new(text.as_bytes());
+        let mut row = CsvRow::default();
         let mut found = Vec::new();
         while rows.read(&mut row, Some(count)).unwrap() {
             let fields = row.iter().map(|f| String::from_utf8(f.to_vec()).unwrap());
@@ -326,8 +325,8 @@ mod tests {
 
     #[test]
     fn refuses_a_header_without_end() {
-        let mut rows = Rows::new(io::BufReader::new(io::repeat(b'1')));
-        let error = rows.read(&mut Row::default(), None).unwrap_err();
+        let mut rows = CsvRows::new(io::BufReader::new(io::repeat(b'1')));
+        let error = rows.read(&mut CsvRow::default(), None).unwrap_err();
         assert_eq!(error.to_string(), "line 1 is longer than 65536 bytes");
     }
 
