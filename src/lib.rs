@@ -4,7 +4,7 @@
 //! above it.
 //!
 //! * [`system`]: what differs from one operating system to the next
-//! * [`text`]: text as people, programs and files write it: characters, numbers, lines
+//! * [`text`]: text as people, programs and files write it: characters, numbers, lines, names
 //! * [`door`]: files from outside, opened and read safely
 //! * [`geometry`]: rays and spheres, plain data, checked where it comes in
 //! * [`method`]: the quadratic, and the ways to evaluate it

@@ -76,7 +76,7 @@ fn a_full_disk_is_a_failure_and_a_closed_pipe_is_none() {
         "scenes",
         "tour --list",
         "plan trio",
-        "worksheet seed",
+        "worksheet tutorial",
         "solve --ray=0,0,0,0,0,1 --sphere=0,0,9,1",
         "solve --batch -",
     ] {
@@ -110,13 +110,13 @@ fn a_variable_stands_for_its_flag_and_gives_way_to_it() {
         command.env(variable.0, variable.1);
         String::from_utf8(output(command, "").stdout).unwrap()
     };
-    let method = ["print", "seed", "--pixel", "20,20"];
+    let method = ["print", "tutorial", "--pixel", "20,20"];
     assert!(said(("RAYSCOPE_METHOD", "kahan"), &method).contains("method kahan"));
     assert!(said(("RAYSCOPE_METHOD", ""), &method).contains("method exact"));
     let both = [&method[..], &["--method", "haines"]].concat();
     assert!(said(("RAYSCOPE_METHOD", "kahan"), &both).contains("method haines"));
-    let picture = ["print", "seed"];
-    assert!(said(("RAYSCOPE_STYLE", "seed"), &picture).contains("--++"));
+    let picture = ["print", "tutorial"];
+    assert!(said(("RAYSCOPE_STYLE", "tutorial"), &picture).contains("--++"));
     let colored = said(
         ("RAYSCOPE_COLOR", "256"),
         &["print", "trio", "--style", "half"],
@@ -171,7 +171,7 @@ fn every_shell_gets_its_completions() {
 #[test]
 fn a_script_explores_and_is_told_what_changed() {
     let script = script(
-        &["seed", "--method", "textbook"],
+        &["tutorial", "--method", "textbook"],
         "# the pixel three to the right\ncursor-right 3\n\nnext-method\nshow quadratic\nquit\nnever read\n",
     );
     script.says("A 1; B −40; C 300; Δ 400; near 10; far 30");
@@ -188,7 +188,7 @@ fn every_panel_has_its_text_form() {
     let panels: Vec<_> = rayscope::explorer::Panel::ALL
         .map(rayscope::explorer::Panel::name)
         .into();
-    for scene in ["seed", "trio"] {
+    for scene in ["tutorial", "trio"] {
         let others = ["view", "numbers"];
         let lines = panels
             .iter()
@@ -227,12 +227,12 @@ fn a_line_that_can_not_be_done_gets_a_sentence_and_the_rest_goes_on() {
         "\u{fffd}",
     ];
     for line in bad {
-        let script = script(&["seed"], &format!("{line}\ncursor 1 2\n"));
+        let script = script(&["tutorial"], &format!("{line}\ncursor 1 2\n"));
         script.says("pixel (1, 2)");
         assert_eq!(script.status, Some(1), "{line}: {}", script.said);
     }
     let long = "x".repeat(100_000);
-    let script = script(&["seed"], &format!("{long}\ncursor 1 2"));
+    let script = script(&["tutorial"], &format!("{long}\ncursor 1 2"));
     script.says("longer than 65536 bytes");
     script.says("pixel (1, 2)");
     assert_eq!(script.status, Some(1));
@@ -240,7 +240,7 @@ fn a_line_that_can_not_be_done_gets_a_sentence_and_the_rest_goes_on() {
 
 #[test]
 fn unsaved_work_of_a_script_is_kept_and_saved_work_is_not() {
-    let script_of = |lines: &str| script(&["seed"], lines);
+    let script_of = |lines: &str| script(&["tutorial"], lines);
     let kept = |script: &Script| {
         let folder = script.home.path().join(".local/state/rayscope");
         fs::read_dir(folder).map_or(0, Iterator::count)
@@ -262,7 +262,7 @@ fn unsaved_work_of_a_script_is_kept_and_saved_work_is_not() {
 fn a_question_is_answered_by_the_next_line_or_put_off() {
     let name = "mine.toml";
     let script = script(
-        &["seed"],
+        &["tutorial"],
         "save-as mine.toml\nmove-x-plus\nsave-as ./mine.toml\no\nmove-x-plus\nopen trio\ncursor 1 1\n",
     );
     script.says("exists already.  o overwrite");
@@ -301,40 +301,49 @@ fn a_locale_without_utf_8_gets_ascii_and_no_control_characters() {
 
 /// Flags with absurd values, and a part of the sentence that each gets.
 const ABSURD: &[(&str, &str)] = &[
-    ("seed --plain --t nan", "--t <T>': expected a finite number"),
     (
-        "seed --plain --t 0x1.8q",
+        "tutorial --plain --t nan",
         "--t <T>': expected a finite number",
     ),
-    ("seed --plain --step 99", "--step: found “99”"),
-    ("seed --plain --step none", "--step: found “none”"),
     (
-        "seed --plain --cursor 40,0",
+        "tutorial --plain --t 0x1.8q",
+        "--t <T>': expected a finite number",
+    ),
+    ("tutorial --plain --step 99", "--step: found “99”"),
+    ("tutorial --plain --step none", "--step: found “none”"),
+    (
+        "tutorial --plain --cursor 40,0",
         "--cursor 40,0: expected a pixel",
     ),
     (
-        "seed --plain --cursor -1,0",
+        "tutorial --plain --cursor -1,0",
         "--cursor <X,Y>': expected a column",
     ),
-    ("seed --plain --sphere 0", "--sphere 0: expected a sphere"),
-    ("seed --plain --sphere -1", "--sphere"),
-    ("seed --plain --shown 7", "--shown 7: expected a sphere"),
     (
-        "seed --plain --set radius=nan",
+        "tutorial --plain --sphere 0",
+        "--sphere 0: expected a sphere",
+    ),
+    ("tutorial --plain --sphere -1", "--sphere"),
+    ("tutorial --plain --shown 7", "--shown 7: expected a sphere"),
+    (
+        "tutorial --plain --set radius=nan",
         "--set radius=nan: radius is",
     ),
-    ("seed --plain --set radius=-1", "--set: radius is -1"),
+    ("tutorial --plain --set radius=-1", "--set: radius is -1"),
     (
-        "seed --plain --set size=1",
+        "tutorial --plain --set size=1",
         "--set size=1: “size” is no key",
     ),
     (
-        "seed --plain --set extent.width=1e38",
+        "tutorial --plain --set extent.width=1e38",
         "extent is [1e38, 40]",
     ),
-    ("seed --plain --aspect nan", "--aspect <ASPECT>': expected"),
-    ("seed --plain --size 9x9", "--cursor"),
-    ("seed --plain --compare none", "'--compare <METHOD>'"),
+    (
+        "tutorial --plain --aspect nan",
+        "--aspect <ASPECT>': expected",
+    ),
+    ("tutorial --plain --size 9x9", "--cursor"),
+    ("tutorial --plain --compare none", "'--compare <METHOD>'"),
     (
         "tour 1 --plain --page 0",
         "--page 0: expected a page from 1 to 4",
@@ -348,36 +357,45 @@ const ABSURD: &[(&str, &str)] = &[
         "'--list' cannot be used with '--page",
     ),
     ("tour 4 --plain --step 99", "--step: found “99”"),
-    ("print seed --pixel 40,0", "--pixel 40,0: expected a pixel"),
     (
-        "print seed --pixel -1,0",
+        "print tutorial --pixel 40,0",
+        "--pixel 40,0: expected a pixel",
+    ),
+    (
+        "print tutorial --pixel -1,0",
         "--pixel <X,Y>': expected a column",
     ),
     (
-        "print seed --style seed --view depth",
-        "--view depth: the style seed",
+        "print tutorial --style tutorial --view depth",
+        "--view depth: the style tutorial",
     ),
-    ("print seed --steps", "--pixel"),
-    ("print seed --size 0x9", "--size <WxH>': expected a width"),
-    ("print seed --aspect inf", "--aspect <ASPECT>': expected"),
-    ("plan seed --sphere 9", "--sphere 9: expected a sphere"),
+    ("print tutorial --steps", "--pixel"),
     (
-        "plan seed --sphere x",
+        "print tutorial --size 0x9",
+        "--size <WxH>': expected a width",
+    ),
+    (
+        "print tutorial --aspect inf",
+        "--aspect <ASPECT>': expected",
+    ),
+    ("plan tutorial --sphere 9", "--sphere 9: expected a sphere"),
+    (
+        "plan tutorial --sphere x",
         "--sphere <N>': expected a whole number",
     ),
     (
-        "plan seed --style seed --view depth",
-        "--view depth: the style seed",
+        "plan tutorial --style tutorial --view depth",
+        "--view depth: the style tutorial",
     ),
     (
-        "worksheet seed --seed 1e9",
+        "worksheet tutorial --seed 1e9",
         "--seed <N>': expected a whole number",
     ),
     (
-        "worksheet seed --seed -1",
+        "worksheet tutorial --seed -1",
         "--seed <N>': expected a whole number",
     ),
-    ("worksheet seed --count 0", "from 1 to 100"),
+    ("worksheet tutorial --count 0", "from 1 to 100"),
     ("bench --seed x", "--seed <N>': expected a whole number"),
     ("bench --rays 1e3", "from 1 to 10000000"),
     ("bench --frames --counts 0", "from 1 to 3000000"),
@@ -387,7 +405,7 @@ const ABSURD: &[(&str, &str)] = &[
         "--brief: only the text report",
     ),
     (
-        "seed --plain --compare exact",
+        "tutorial --plain --compare exact",
         "--compare exact: expected another method",
     ),
     ("stress --rays -5", "from 1 to 1000000"),
@@ -447,7 +465,7 @@ fn whoever_reads_no_more_hears_no_complaint() {
         "bench --quick --rays 20 --format json",
         "stress --quick --rays 2 --format csv",
         "plan trio --format json",
-        "seed --plain",
+        "tutorial --plain",
     ] {
         let words: Vec<_> = line.split(' ').collect();
         let mut child = rayscope(home.path(), &words).spawn().expect("the program");
@@ -469,5 +487,40 @@ fn whoever_reads_no_more_hears_no_complaint() {
             "{line}: {said}"
         );
         assert_eq!(output.status.code(), Some(0), "{line}: {said}");
+    }
+}
+
+#[test]
+fn the_former_name_of_the_tutorials_scene_and_style_is_understood_and_not_listed() {
+    let under = |name: &str| {
+        let lines = format!("open trio\nopen {name}\nstyle half\nstyle {name}\nquit\n");
+        let script = script(&[name, "--style", name], &lines);
+        assert_eq!((script.status, script.complained.as_str()), (Some(0), ""));
+        script.said
+    };
+    let said = under("tutorial");
+    assert_eq!(under("seed"), said);
+    assert!(said.contains("style tutorial"), "{said}");
+
+    let home = tempfile::tempdir().expect("a home");
+    let out = |arguments: &[&str]| {
+        let output = output(rayscope(home.path(), arguments), "");
+        assert!(output.status.success(), "{arguments:?}");
+        String::from_utf8(output.stdout).expect("text")
+    };
+    let picture = |name| out(&["print", name, "--style", name]);
+    assert_eq!(picture("seed"), picture("tutorial"));
+    assert_eq!(out(&["scenes", "seed"]), out(&["scenes", "tutorial"]));
+    for listing in [
+        &["scenes"][..],
+        &["print", "--help"],
+        &["completions", "bash"],
+    ] {
+        let listing = out(listing);
+        assert!(
+            !listing
+                .split(|c: char| !c.is_alphanumeric() && c != '-')
+                .any(|w| w == "seed")
+        );
     }
 }

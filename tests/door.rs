@@ -168,7 +168,7 @@ fn a_byte_that_is_no_text_has_its_place_and_a_mark_before_the_text_is_none() {
     let home = Home::new();
     home.file(
         "bad.toml",
-        b"title = \"x\"\n[[page]]\nscene = \"seed\"\ntext = \"caf\xe9\"\n",
+        b"title = \"x\"\n[[page]]\nscene = \"tutorial\"\ntext = \"caf\xe9\"\n",
     );
     let run = home.run(&["tour", "bad.toml"], b"");
     assert_eq!(run.status, Some(1));
@@ -176,7 +176,7 @@ fn a_byte_that_is_no_text_has_its_place_and_a_mark_before_the_text_is_none() {
         run.err,
         "rayscope: bad.toml:4:12: found the byte 0xe9, expected text in UTF-8\n"
     );
-    let page = "title = \"x\"\n[[page]]\nscene = \"seed\"\ntext = \"t\"\n";
+    let page = "title = \"x\"\n[[page]]\nscene = \"tutorial\"\ntext = \"t\"\n";
     home.file("page.toml", format!("\u{feff}{page}"));
     assert_eq!(
         home.run(&["tour", "page.toml", "--list"], b"").status,
@@ -209,7 +209,7 @@ fn a_file_of_any_name_is_opened() {
     home.file(name(b".toml"), CAMERA);
     home.file(
         name(b"-page.toml"),
-        "title = \"x\"\n[[page]]\nscene = \"seed\"\ntext = \"t\"\n",
+        "title = \"x\"\n[[page]]\nscene = \"tutorial\"\ntext = \"t\"\n",
     );
     home.file(name(b".csv"), ROWS);
     home.file(name(b"-claims.csv"), CLAIMS);

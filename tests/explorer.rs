@@ -137,7 +137,7 @@ fn key_event(name: &str) -> Event {
 
 #[test]
 fn the_tutorials_pixel_shows_its_numbers() {
-    let mut person = Person::opens("seed", 80, 24);
+    let mut person = Person::opens("tutorial", 80, 24);
     for text in [
         "pixel (20, 20)",
         "A    d·d            1",
@@ -155,7 +155,7 @@ fn the_tutorials_pixel_shows_its_numbers() {
 #[test]
 fn screens_at_80_by_24_and_160_by_50() {
     for (cols, rows) in [(80, 24), (160, 50)] {
-        for scene in ["seed", "trio"] {
+        for scene in ["tutorial", "trio"] {
             let screen = Person::opens(scene, cols, rows).screen();
             insta::assert_snapshot!(format!("{scene}_{cols}x{rows}"), screen);
             let steps = Person::opens(scene, cols, rows)
@@ -166,15 +166,15 @@ fn screens_at_80_by_24_and_160_by_50() {
     }
     insta::assert_snapshot!(
         "help_80x24",
-        Person::opens("seed", 80, 24).presses("?").screen()
+        Person::opens("tutorial", 80, 24).presses("?").screen()
     );
     insta::assert_snapshot!(
         "form_80x24",
         Person::opens("trio", 80, 24).presses("=").screen()
     );
-    insta::assert_snapshot!("narrow_40x24", Person::opens("seed", 40, 24).screen());
-    insta::assert_snapshot!("strip_30x10", Person::opens("seed", 30, 10).screen());
-    insta::assert_snapshot!("small_19x5", Person::opens("seed", 19, 5).screen());
+    insta::assert_snapshot!("narrow_40x24", Person::opens("tutorial", 40, 24).screen());
+    insta::assert_snapshot!("strip_30x10", Person::opens("tutorial", 30, 10).screen());
+    insta::assert_snapshot!("small_19x5", Person::opens("tutorial", 19, 5).screen());
 }
 
 #[test]
@@ -184,7 +184,7 @@ fn a_screen_in_ascii_has_no_byte_above_127() {
         depth: ColorDepth::None,
         ..textbook()
     };
-    for scene in ["seed", "trio"] {
+    for scene in ["tutorial", "trio"] {
         let mut person = Person::with(scene, 80, 24, options);
         for keys in ["", "?", "esc =", "esc :", "esc b", "b", "b v", "v"] {
             let screen = person.presses(keys).screen();
@@ -234,7 +234,7 @@ fn in_ascii_no_step_is_cut_off_and_columns_stay_columns() {
 
 #[test]
 fn the_cursor_moves_and_stops_at_the_edge() {
-    let mut person = Person::opens("seed", 80, 24);
+    let mut person = Person::opens("tutorial", 80, 24);
     person.presses("left k shift-down L");
     assert_eq!(person.explorer.cursor(), (27, 27));
     person.presses("H H H H H");
@@ -248,7 +248,7 @@ fn the_cursor_moves_and_stops_at_the_edge() {
 
 #[test]
 fn snapping_finds_the_nearest_tangent_pixel() {
-    let mut person = Person::opens("seed", 80, 24);
+    let mut person = Person::opens("tutorial", 80, 24);
     person.commands("cursor 33 20").presses("t");
     assert_eq!(person.explorer.cursor(), (30, 20));
     person.shows("tangent");
@@ -256,7 +256,7 @@ fn snapping_finds_the_nearest_tangent_pixel() {
 
 #[test]
 fn making_a_pixel_tangent_sets_the_radius_for_which_the_discriminant_is_zero() {
-    let mut person = Person::opens("seed", 80, 24);
+    let mut person = Person::opens("tutorial", 80, 24);
     person.commands("cursor 23 24").presses("T");
     assert_eq!(person.explorer.scene().bodies[0].sphere.radius, 5.0);
     person.shows("Δ = 0");
@@ -288,7 +288,7 @@ fn every_change_can_be_undone_and_done_again() {
 #[test]
 fn a_number_is_typed_over_or_edited() {
     let radius = |person: &Person| person.explorer.scene().bodies[0].sphere.radius;
-    let mut person = Person::opens("seed", 80, 24);
+    let mut person = Person::opens("tutorial", 80, 24);
     person
         .presses("= down down down enter")
         .shows("type over it");
@@ -309,7 +309,7 @@ fn a_number_is_typed_over_or_edited() {
 
 #[test]
 fn the_moving_point_goes_from_landmark_to_landmark() {
-    let mut person = Person::opens("seed", 80, 24);
+    let mut person = Person::opens("tutorial", 80, 24);
     person.presses("3").shows("p at t = 10");
     for (key, said) in [
         ("*", "3 of 4: t = 20, closest to the centre."),
@@ -360,7 +360,7 @@ fn errors_side_by_side_have_one_unit() {
 
 #[test]
 fn a_typed_number_is_held_to_what_a_scene_file_may_say() {
-    let mut person = Person::opens("seed", 80, 24);
+    let mut person = Person::opens("tutorial", 80, 24);
     person
         .presses("= down down down")
         .types("-3")
@@ -436,7 +436,7 @@ fn the_mouse_is_heeded_once_it_is_asked_for() {
         })
     };
     let click = |column, row| mouse(MouseEventKind::Down(MouseButton::Left), column, row);
-    let mut person = Person::opens("seed", 80, 24);
+    let mut person = Person::opens("tutorial", 80, 24);
     let before = person.explorer.cursor();
     assert!(!person.explorer.update(&click(1, 2)));
     assert_eq!(person.explorer.cursor(), before);
@@ -475,27 +475,27 @@ fn the_mouse_is_heeded_once_it_is_asked_for() {
 
 #[test]
 fn quitting_asks_only_if_something_would_be_lost() {
-    let mut person = Person::opens("seed", 80, 24);
+    let mut person = Person::opens("tutorial", 80, 24);
     person.presses("right q");
     assert_eq!(person.explorer.ended(), Some(0));
 
-    let mut person = Person::opens("seed", 80, 24);
+    let mut person = Person::opens("tutorial", 80, 24);
     person.presses("x q").shows("Unsaved changes");
     assert_eq!(person.explorer.ended(), None);
     person.presses("esc u q");
     assert_eq!(person.explorer.ended(), Some(0));
 
-    let mut person = Person::opens("seed", 80, 24);
+    let mut person = Person::opens("tutorial", 80, 24);
     person.presses("x q D");
     assert_eq!(person.explorer.ended(), Some(0));
-    let mut person = Person::opens("seed", 80, 24);
+    let mut person = Person::opens("tutorial", 80, 24);
     person.presses("ctrl-c");
     assert_eq!(person.explorer.ended(), Some(130));
 }
 
 #[test]
 fn saving_never_overwrites_what_was_not_read() {
-    let mut person = Person::opens("seed", 160, 24);
+    let mut person = Person::opens("tutorial", 160, 24);
     let path = person.file("mine.toml");
     let name = path.to_str().unwrap();
     person.presses("x").commands("save-as mine.toml");
@@ -521,7 +521,7 @@ fn saving_never_overwrites_what_was_not_read() {
 
 #[test]
 fn opening_asks_before_changes_are_lost_and_says_what_is_wrong() {
-    let mut person = Person::opens("seed", 80, 24);
+    let mut person = Person::opens("tutorial", 80, 24);
     person
         .presses("x")
         .commands("open trio")
@@ -538,7 +538,7 @@ fn opening_asks_before_changes_are_lost_and_says_what_is_wrong() {
 
 #[test]
 fn commands_complete_and_say_what_they_expected() {
-    let mut person = Person::opens("seed", 80, 24);
+    let mut person = Person::opens("tutorial", 80, 24);
     person.presses(":").types("cursor-l").presses("tab enter");
     assert_eq!(person.explorer.cursor(), (19, 20));
     person.presses(":").types("open tr").presses("tab enter");
@@ -552,7 +552,7 @@ fn commands_complete_and_say_what_they_expected() {
 
 #[test]
 fn a_paste_is_no_burst_of_commands() {
-    let mut person = Person::opens("seed", 80, 24);
+    let mut person = Person::opens("tutorial", 80, 24);
     let before = person.explorer.scene().clone();
     person.explorer.update(&Event::Paste("xxxx q\nq".into()));
     assert_eq!(*person.explorer.scene(), before);
@@ -626,7 +626,7 @@ fn what_a_method_gets_wrong_is_never_what_there_is_no_room_for() {
 #[test]
 fn a_panel_takes_the_pictures_place_where_it_has_no_other() {
     for (cols, rows) in [(40, 14), (30, 10), (60, 16)] {
-        let mut person = Person::opens("seed", cols, rows);
+        let mut person = Person::opens("tutorial", cols, rows);
         person.shows("view 40×40");
         let picture = person.screen();
         for (key, title) in [
@@ -648,7 +648,7 @@ fn a_panel_takes_the_pictures_place_where_it_has_no_other() {
         person.presses("1");
         assert_eq!(person.screen(), picture);
     }
-    let mut person = Person::opens("seed", 80, 24);
+    let mut person = Person::opens("tutorial", 80, 24);
     let wide = person.screen();
     person.presses("1 1");
     assert_eq!(person.screen(), wide, "beside the picture nothing changes");
@@ -656,7 +656,7 @@ fn a_panel_takes_the_pictures_place_where_it_has_no_other() {
 
 #[test]
 fn a_picture_that_is_cut_shows_its_middle() {
-    let mut person = Person::opens("seed", 80, 17);
+    let mut person = Person::opens("tutorial", 80, 17);
     let screen = person.screen();
     // The disc is 20 of the 40 pixels high, in 11 of the 13 rows.
     assert!(screen.contains("▄▄▄▄▀▄▄▄▄"), "{screen}");
@@ -694,7 +694,7 @@ fn lines_that_have_no_room_are_counted_and_come_by_scrolling() {
 
 #[test]
 fn a_person_walks_through_the_derivation_and_back() {
-    let mut person = Person::opens("seed", 80, 24);
+    let mut person = Person::opens("tutorial", 80, 24);
     let before = person.screen();
     person.presses("enter").shows("step 1 of");
     let first = person.screen();
@@ -710,7 +710,7 @@ fn a_person_walks_through_the_derivation_and_back() {
 
 #[test]
 fn moving_on_keeps_the_step_and_marks_what_changed() {
-    let mut person = Person::opens("seed", 80, 24);
+    let mut person = Person::opens("tutorial", 80, 24);
     person.commands("step C").presses("right");
     person.shows(": C");
     person.shows("= 301");
@@ -729,7 +729,7 @@ fn moving_on_keeps_the_step_and_marks_what_changed() {
 
 #[test]
 fn predicting_hides_the_answer_until_it_is_given() {
-    let mut person = Person::opens("seed", 80, 24);
+    let mut person = Person::opens("tutorial", 80, 24);
     person.commands("step Δ").presses("P");
     person.shows("Is Δ negative, zero or positive?");
     assert!(!person.screen().contains("= 400"));
@@ -749,7 +749,7 @@ fn predicting_hides_the_answer_until_it_is_given() {
 #[test]
 fn nothing_tells_what_is_to_be_predicted() {
     for (scene, method) in [
-        ("seed", "textbook"),
+        ("tutorial", "textbook"),
         ("trio", "haines"),
         ("behind", "exact"),
         ("grazing", "exact"),
@@ -796,7 +796,7 @@ fn nothing_tells_what_is_to_be_predicted() {
 
 #[test]
 fn the_picture_comes_back_with_the_last_answer() {
-    let mut person = Person::opens("seed", 80, 24);
+    let mut person = Person::opens("tutorial", 80, 24);
     person.presses("P").shows("view 40×40, hidden");
     person.commands("step seen").shows("Which root is seen?");
     person.shows("view 40×40, hidden");
@@ -807,7 +807,7 @@ fn the_picture_comes_back_with_the_last_answer() {
 
 #[test]
 fn the_board_shows_one_step_and_hides_its_answer() {
-    let mut person = Person::opens("seed", 80, 24);
+    let mut person = Person::opens("tutorial", 80, 24);
     person.commands("step C").presses("O");
     let hidden = person.screen();
     let revealed = person.presses("enter").screen();
@@ -1031,7 +1031,7 @@ fn quitting_asks_about_work_and_not_about_a_look_at_a_built_in_scene() {
 
 #[test]
 fn the_mark_of_the_column_covers_no_word() {
-    let mut person = Person::opens("seed", 80, 24);
+    let mut person = Person::opens("tutorial", 80, 24);
     for _ in 0..40 {
         person.presses("left");
         let top = person
@@ -1089,7 +1089,7 @@ fn a_dial_that_scenes_do_not_have_is_named_and_so_is_one_that_goes_no_further() 
 
 #[test]
 fn a_pixel_is_copied_as_a_row_and_as_test_cases_and_shown() {
-    let mut person = Person::opens("seed", 80, 24);
+    let mut person = Person::opens("tutorial", 80, 24);
     let copied = |person: &mut Person| match person.explorer.take_request() {
         Some(Request::Copy(text)) => text,
         other => panic!("{other:?}"),
@@ -1119,7 +1119,7 @@ fn a_pixel_is_copied_as_a_row_and_as_test_cases_and_shown() {
 
 #[test]
 fn pixels_are_collected_in_a_file_that_is_one_of_rows() {
-    let mut person = Person::opens("seed", 160, 24);
+    let mut person = Person::opens("tutorial", 160, 24);
     let path = person.file("hard.csv");
     let append = "append hard.csv";
     person.commands(append).shows("has 1 row now");
@@ -1216,7 +1216,7 @@ proptest! {
 
     #[test]
     fn any_keys_at_any_size_never_panic(
-        scene in prop::sample::select(vec!["seed", "trio"]),
+        scene in prop::sample::select(vec!["tutorial", "trio"]),
         deeds in prop::collection::vec(deed(), 1..120),
     ) {
         let mut person = Person::opens(scene, 80, 24);
@@ -1392,7 +1392,7 @@ proptest! {
 
     #[test]
     fn stepping_back_restores_the_screen(
-        scene in prop::sample::select(vec!["seed", "trio", "inside", "far"]),
+        scene in prop::sample::select(vec!["tutorial", "trio", "inside", "far"]),
         // Where the picture has to scroll, it stays where it was scrolled to.
         size in prop::sample::select(vec![(80, 24), (130, 46), (160, 50)]),
         moves in prop::collection::vec(any_move(), 1..24),

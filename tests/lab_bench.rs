@@ -193,7 +193,7 @@ fn the_table_fits_eighty_columns_and_names_what_it_shows() {
 
 #[test]
 fn the_rays_of_a_scene_are_those_of_its_picture() {
-    let document = json(&["--scene", "seed", "--method", "textbook,exact"]);
+    let document = json(&["--scene", "tutorial", "--method", "textbook,exact"]);
     let results = document["results"].as_array().unwrap();
     assert_eq!(results.len(), 2);
     assert_eq!(results[0]["rays"], 1600);
@@ -214,7 +214,7 @@ fn what_cannot_be_done_is_said_in_a_sentence() {
         &["bench", "--family", "none"][..],
         &["bench", "--method", "none"],
         &["bench", "--rays", "0"],
-        &["bench", "--scene", "seed", "--family", "typical"],
+        &["bench", "--scene", "tutorial", "--family", "typical"],
     ] {
         assert_eq!(rayscope(misuse).status.code(), Some(2), "{misuse:?}");
     }

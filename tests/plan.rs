@@ -137,8 +137,8 @@ fn counts_of(scene: &Scene, size: Size, view: View) -> Counts {
 
 #[test]
 fn the_tutorials_screen_needs_21_rows_and_317_pixels() {
-    let seed = Builtin::Seed.scene();
-    let counts = counts_of(&seed, Size::new(40, 40), View::Shade);
+    let tutorial = Builtin::Tutorial.scene();
+    let counts = counts_of(&tutorial, Size::new(40, 40), View::Shade);
     assert_eq!((counts.rows, counts.spanned), (21, 317));
     // The margin: tests go in runs of eight, so up to seven more pixels a row.
     assert!(
@@ -151,8 +151,8 @@ fn the_tutorials_screen_needs_21_rows_and_317_pixels() {
     // The other methods look at no more rows; their columns are widened by their error.
     for method in Method::ALL {
         let mut frame = Frame::new();
-        let rays = rays_of(&seed, Size::new(40, 40));
-        frame.render(&seed, &rays, method, View::Shade);
+        let rays = rays_of(&tutorial, Size::new(40, 40));
+        frame.render(&tutorial, &rays, method, View::Shade);
         let counts = frame.plan().counts();
         assert_eq!((counts.rows, counts.spanned), (21, 317), "{method}");
     }
@@ -510,10 +510,10 @@ fn rayscope(arguments: &[&str]) -> (String, String, Option<i32>) {
 
 #[test]
 fn the_command_prints_the_plan_of_three_frames() {
-    let (text, _, status) = rayscope(&["plan", "seed"]);
+    let (text, _, status) = rayscope(&["plan", "tutorial"]);
     assert_eq!(status, Some(0));
     assert!(text.lines().all(|line| line.chars().count() <= 80));
-    let (json, _, _) = rayscope(&["plan", "seed", "--format", "json"]);
+    let (json, _, _) = rayscope(&["plan", "tutorial", "--format", "json"]);
     let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
     let line = |frame: usize, what: &str| {
         let plan = json["frames"][frame]["plan"].as_array().expect("a list");

@@ -37,7 +37,7 @@ fn the_seed_is_the_tutorials_text() {
         })
         .collect();
     for more in [&[][..], &["--color", "true"], &["--size", "40x40"]] {
-        let arguments = [&["print", "seed", "--style", "seed"], more].concat();
+        let arguments = [&["print", "tutorial", "--style", "tutorial"], more].concat();
         assert_eq!(text(&arguments), expected, "{more:?}");
     }
     assert_eq!(expected.matches("++").count(), 317);
@@ -55,7 +55,7 @@ fn a_pipe_gets_plain_ascii_of_80_by_24() {
 fn a_size_is_in_pixels() {
     for (style, cells) in [
         ("ascii", (30, 20)),
-        ("seed", (60, 20)),
+        ("tutorial", (60, 20)),
         ("half", (30, 10)),
         ("braille", (15, 5)),
     ] {
@@ -71,7 +71,7 @@ fn a_size_is_in_pixels() {
 
 #[test]
 fn the_class_view_of_the_seed_has_its_twelve_tangents() {
-    let text = text(&["print", "seed", "--style", "ascii", "--view", "class"]);
+    let text = text(&["print", "tutorial", "--style", "ascii", "--view", "class"]);
     assert_eq!(text.matches('o').count(), 12);
     assert_eq!(text.matches('#').count(), 305);
     assert_eq!(text.matches('.').count(), 1600 - 317);
@@ -91,7 +91,7 @@ fn colours_are_as_asked_even_in_a_pipe() {
 
 #[test]
 fn a_pixel_is_told_in_the_words_of_the_panel() {
-    let text = text(&["print", "seed", "--pixel", "20,20"]);
+    let text = text(&["print", "tutorial", "--pixel", "20,20"]);
     for part in [
         "ray at (20, 20)",
         "20, 20, 0",
@@ -109,12 +109,12 @@ fn a_pixel_is_told_in_the_words_of_the_panel() {
 fn what_is_asked_wrongly_is_told_in_a_sentence() {
     for (arguments, status, sentence) in [
         (&["print"][..], 2, "<SCENE>"),
-        (&["print", "seed", "--style", "hlaf"], 2, "half"),
-        (&["print", "seed", "--size", "0x9"], 2, "from 1 to 4096"),
-        (&["print", "seed", "--aspect", "NaN"], 2, "0.5 to 4"),
-        (&["print", "seed", "--pixel", "1"], 2, "20,20"),
+        (&["print", "tutorial", "--style", "hlaf"], 2, "half"),
+        (&["print", "tutorial", "--size", "0x9"], 2, "from 1 to 4096"),
+        (&["print", "tutorial", "--aspect", "NaN"], 2, "0.5 to 4"),
+        (&["print", "tutorial", "--pixel", "1"], 2, "20,20"),
         (
-            &["print", "seed", "--pixel", "40,0"],
+            &["print", "tutorial", "--pixel", "40,0"],
             2,
             "from 0,0 to 39,39",
         ),
@@ -130,11 +130,18 @@ fn what_is_asked_wrongly_is_told_in_a_sentence() {
 
 #[test]
 fn a_reader_that_leaves_ends_it_quietly() {
-    let mut child = rayscope(&["print", "seed", "--size", "4000x2000", "--style", "ascii"])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("the program runs");
+    let mut child = rayscope(&[
+        "print",
+        "tutorial",
+        "--size",
+        "4000x2000",
+        "--style",
+        "ascii",
+    ])
+    .stdout(Stdio::piped())
+    .stderr(Stdio::piped())
+    .spawn()
+    .expect("the program runs");
     drop(child.stdout.take());
     let output = child.wait_with_output().expect("the program ends");
     assert_eq!(output.status.code(), Some(0));
@@ -143,7 +150,9 @@ fn a_reader_that_leaves_ends_it_quietly() {
 
 #[test]
 fn the_steps_of_a_pixel_are_the_whole_derivation() {
-    let pixel = ["print", "seed", "--pixel", "20,20", "--method", "textbook"];
+    let pixel = [
+        "print", "tutorial", "--pixel", "20,20", "--method", "textbook",
+    ];
     let text = text(&[&pixel[..], &["--steps"]].concat());
     assert!(text.starts_with("ray at (20, 20) of 40 by 40 pixels, method textbook\n"));
     for paragraph in [
@@ -178,7 +187,7 @@ fn steps_and_solve_say_the_same_of_what_was_lost() {
 
 #[test]
 fn steps_without_a_pixel_are_misuse() {
-    let output = run(&["print", "seed", "--steps"]);
+    let output = run(&["print", "tutorial", "--steps"]);
     assert_eq!(output.status.code(), Some(2));
     let said = String::from_utf8(output.stderr).expect("text");
     assert!(said.contains("--pixel"), "{said}");

@@ -36,7 +36,7 @@ fn scene(camera: Camera, bodies: Vec<Body>) -> Scene {
 }
 
 /// The tutorial's screen.
-fn seed() -> Scene {
+fn tutorial() -> Scene {
     let camera = Camera {
         projection: Projection::Orthographic {
             extent: [40.0, 40.0],
@@ -104,10 +104,10 @@ fn tutorials_text() -> String {
 #[test]
 fn the_seed_is_the_tutorials_text() {
     let look = Look {
-        style: Style::Seed,
+        style: Style::Tutorial,
         ..Look::default()
     };
-    let text = text(&drawn(&seed(), (80, 24), View::Shade, look));
+    let text = text(&drawn(&tutorial(), (80, 24), View::Shade, look));
     assert_eq!(text, tutorials_text());
     assert_eq!(text.lines().count(), 40);
     assert!(text.lines().all(|line| line.len() == 80));
@@ -125,19 +125,24 @@ fn count(frame: &Frame, what: impl Fn(Contact) -> bool) -> usize {
 #[test]
 fn the_seed_has_317_hits_of_which_12_are_tangents() {
     for method in Method::ALL {
-        let frame = rendered(&seed(), Size::new(40, 40), method, View::Class);
+        let frame = rendered(&tutorial(), Size::new(40, 40), method, View::Class);
         assert_eq!(count(&frame, Contact::meets), 317, "{method}");
         assert_eq!(count(&frame, |c| c == Contact::Tangent), 12, "{method}");
     }
-    let hit = rendered(&seed(), Size::new(40, 40), Method::Textbook, View::Shade)
-        .hit(&seed(), 20, 20)
-        .expect("a hit");
+    let hit = rendered(
+        &tutorial(),
+        Size::new(40, 40),
+        Method::Textbook,
+        View::Shade,
+    )
+    .hit(&tutorial(), 20, 20)
+    .expect("a hit");
     assert_eq!((hit.body, hit.t), (0, 10.0));
 }
 
 #[test]
 fn a_sphere_behind_the_eye_is_told_apart_and_not_seen() {
-    let mut behind = seed();
+    let mut behind = tutorial();
     behind.bodies[0].sphere.center.z = -20.0;
     let size = Size::new(40, 40);
     let frame = rendered(&behind, size, Method::Textbook, View::Class);
@@ -146,7 +151,7 @@ fn a_sphere_behind_the_eye_is_told_apart_and_not_seen() {
     assert_eq!(frame.seen(20, 20), None);
     // The tutorial's boolean cannot tell.
     let look = Look {
-        style: Style::Seed,
+        style: Style::Tutorial,
         ..Look::default()
     };
     assert_eq!(
@@ -208,7 +213,7 @@ fn any_size_is_drawn_in_any_style() {
     let mut frame = Frame::new();
     let mut image = Image::new();
     let scenes = [
-        seed(),
+        tutorial(),
         scene(looking_down_z([0.0; 3]), vec![]),
         scene(
             looking_down_z([0.0; 3]),
@@ -262,7 +267,7 @@ fn pixels(frame: &Frame) -> impl Iterator<Item = (u32, u32)> + use<> {
 fn the_sign_of_delta_is_the_class() {
     for method in Method::ALL {
         let [class, delta] =
-            [View::Class, View::Delta].map(|v| rendered(&seed(), Size::new(40, 40), method, v));
+            [View::Class, View::Delta].map(|v| rendered(&tutorial(), Size::new(40, 40), method, v));
         for (x, y) in pixels(&class) {
             // Δ/(4Ar²) = 1 − (p/r)²; from twice the radius on it is not shown.
             let expected = 1.0 - ((x as f32 - 20.0).powi(2) + (y as f32 - 20.0).powi(2)) / 100.0;
@@ -322,7 +327,7 @@ fn what_a_method_lost_is_told_from_what_it_got_wrong() {
 fn the_stages_of_the_seed_are_the_first_and_for_its_tangents_the_plain_one() {
     let size = Size::new(40, 40);
     let [class, stage] =
-        [View::Class, View::Stage].map(|v| rendered(&seed(), size, Method::Textbook, v));
+        [View::Class, View::Stage].map(|v| rendered(&tutorial(), size, Method::Textbook, v));
     for (x, y) in pixels(&class) {
         let expected = match class.contact(x, y) {
             Contact::Tangent => Stage::Unrounded,
@@ -335,12 +340,12 @@ fn the_stages_of_the_seed_are_the_first_and_for_its_tangents_the_plain_one() {
 #[test]
 fn depth_runs_from_the_nearest_to_the_farthest_and_normals_point_outwards() {
     let size = Size::new(40, 40);
-    let depth = rendered(&seed(), size, Method::Exact, View::Depth);
+    let depth = rendered(&tutorial(), size, Method::Exact, View::Depth);
     assert_eq!(depth.range(), Some([10.0, 20.0]));
     for (t, nearness) in [(10.0, 1.0), (200.0_f32.sqrt(), 0.5), (20.0, 0.0)] {
         assert!((depth.nearness(t) - nearness).abs() < 1e-6);
     }
-    let normal = rendered(&seed(), size, Method::Exact, View::Normal);
+    let normal = rendered(&tutorial(), size, Method::Exact, View::Normal);
     // The tutorial's screen has y downwards, and its sphere's centre at (20, 20).
     for ((x, y), n) in [
         ((20, 20), [0.0, 0.0, 1.0]),
@@ -348,14 +353,14 @@ fn depth_runs_from_the_nearest_to_the_farthest_and_normals_point_outwards() {
         ((20, 14), [0.0, 0.6, 0.8]),
         ((12, 26), [-0.8, -0.6, 0.0]),
     ] {
-        let found = normal.normal(&seed(), x, y).expect("a hit");
+        let found = normal.normal(&tutorial(), x, y).expect("a hit");
         assert!(found.distance(n.into()) < 1e-6, "{found}");
     }
 }
 
 #[test]
 fn every_view_can_be_read_in_every_style_without_colour() {
-    let mut scene = seed();
+    let mut scene = tutorial();
     scene.bodies.push(body([28.0, 26.0, 12.0], 5.0));
     for style in [Style::Half, Style::Braille, Style::Ascii] {
         for view in [View::Depth, View::Normal, View::Delta] {

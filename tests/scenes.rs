@@ -224,8 +224,8 @@ fn the_three_lines_miss_touch_and_cross_exactly() {
 }
 
 #[test]
-fn the_seeds_probes_tell_the_truth() {
-    let scene = Builtin::Seed.scene();
+fn the_tutorials_probes_tell_the_truth() {
+    let scene = Builtin::Tutorial.scene();
     let discriminant = |title| {
         Method::Textbook
             .coefficients(&probed(&scene, title), &scene.bodies[0].sphere)
@@ -637,13 +637,13 @@ fn the_program_prints_each_built_in_scene_as_a_file_of_it() {
 
 #[test]
 fn the_program_refuses_a_scene_that_it_does_not_have_by_offering_its_own() {
-    let output = rayscope(&["scenes", "sed"]);
+    let output = rayscope(&["scenes", "tutorail"]);
     assert_eq!(output.status.code(), Some(2));
     let said = String::from_utf8(output.stderr).unwrap();
     for builtin in Builtin::ALL {
         assert!(said.contains(builtin.name()), "{said}");
     }
-    assert!(said.contains("similar value exists: 'seed'"), "{said}");
+    assert!(said.contains("similar value exists: 'tutorial'"), "{said}");
 
     let output = rayscope(&["no-such.toml"]);
     assert_eq!(output.status.code(), Some(1));

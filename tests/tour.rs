@@ -29,7 +29,7 @@ impl Student {
 
     /// On a page of the tour, both counted from 1.
     fn on_page(chapter: usize, page: usize, size: (u16, u16)) -> Self {
-        let mut student = Self::opens("seed", size, Options::default());
+        let mut student = Self::opens("tutorial", size, Options::default());
         student
             .explorer
             .start_tour(tour::builtin(), chapter - 1, page - 1);
@@ -240,7 +240,7 @@ fn in_plain_characters_the_tour_is_plain() {
         ..Options::default()
     };
     let pages: usize = tour::builtin().iter().map(|c| c.pages.len()).sum();
-    let mut student = Student::opens("seed", SMALL, options);
+    let mut student = Student::opens("tutorial", SMALL, options);
     student.presses("f");
     for _ in 0..pages {
         let screen = student.screen();
@@ -316,7 +316,7 @@ fn own_work_waits_behind_the_tour() {
 
 #[test]
 fn chapters_are_reached_by_name_number_and_key() {
-    let mut student = Student::opens("seed", SMALL, Options::default());
+    let mut student = Student::opens("tutorial", SMALL, Options::default());
     student.types("tour perspective").shows("10/13");
     student.types("tour 2").shows("2/13");
     student.presses("ctrl-n").shows("3/13");
@@ -337,7 +337,7 @@ fn chapters_are_reached_by_name_number_and_key() {
 fn the_style_that_a_person_likes_stays() {
     let mut student = Student::on_page(5, 1, SMALL);
     student.presses("b b f").shows("   ascii   ");
-    student.types("tour 6").shows("   seed   ");
+    student.types("tour 6").shows("   tutorial   ");
 }
 
 /// The sentence for a chapter's text.
@@ -352,10 +352,10 @@ fn a_chapter_that_is_none_is_refused_with_its_place() {
         "title = 3",
         "title = \"a\"",
         "title = \"a\"\n[[page]]\ntext = \"b\"",
-        "title = \"a\"\n[[page]]\nscene = \"seed\"\ntext = \" \"",
-        "title = \"a\"\n[[page]]\nscene = \"sead\"\ntext = \"b\"",
-        "title = \"a\"\n[[page]]\nscene = \"seed\"\ntext = \"b\"\nmethod = \"fast\"",
-        "title = \"a\"\n[[page]]\nscene = \"seed\"\ntext = \"b\"\npixel = [40, 0]",
+        "title = \"a\"\n[[page]]\nscene = \"tutorial\"\ntext = \" \"",
+        "title = \"a\"\n[[page]]\nscene = \"tutoral\"\ntext = \"b\"",
+        "title = \"a\"\n[[page]]\nscene = \"tutorial\"\ntext = \"b\"\nmethod = \"fast\"",
+        "title = \"a\"\n[[page]]\nscene = \"tutorial\"\ntext = \"b\"\npixel = [40, 0]",
         "title = \"a\"\n[[page]]\nscene = \"trio\"\ntext = \"b\"\npixel = [4, 0]",
         "title = \"a\"\n[[page]]\nscene = \"trio\"\ntext = \"b\"\nset = [\"radius −1\"]",
         "title = \"a\"\n[[page]]\nscene = \"trio\"\ntext = \"b\"\nsphere = 0",
@@ -374,7 +374,7 @@ fn the_chapter_in_the_docs_is_one() {
     let example = docs.split("```").nth(1).expect("an example");
     let text = example.trim_start_matches("toml");
     let chapter = Chapter::parse(text, "rim.toml", None).expect("a chapter");
-    let mut student = Student::opens("seed", SMALL, Options::default());
+    let mut student = Student::opens("tutorial", SMALL, Options::default());
     student.explorer.start_tour([chapter].into(), 0, 0);
     student
         .shows("1/1: grazing the rim, page 1/2")
@@ -401,7 +401,7 @@ fn a_teachers_folder_is_a_tour() {
         |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("written");
     write(
         "ball.toml",
-        &Scene::open("seed").expect("a scene").0.to_toml(),
+        &Scene::open("tutorial").expect("a scene").0.to_toml(),
     );
     fs::create_dir(folder.path().join("lessons")).expect("a folder");
     write(
@@ -416,7 +416,7 @@ fn a_teachers_folder_is_a_tour() {
     let chapters = tour::load(&folder.path().join("lessons")).expect("chapters");
     let names: Vec<_> = chapters.iter().map(|c| c.name.as_str()).collect();
     assert_eq!(names, ["first", "second"]);
-    let mut student = Student::opens("seed", SMALL, Options::default());
+    let mut student = Student::opens("tutorial", SMALL, Options::default());
     student.explorer.start_tour(chapters, 1, 0);
     student.shows("2/2: the second, page 1/1").shows("r 5");
     student.shows("One. Two. Try: Three.");
@@ -429,7 +429,7 @@ fn a_teachers_folder_is_a_tour() {
 
 #[test]
 fn on_a_small_screen_a_page_shows_what_it_speaks_of() {
-    let mut student = Student::opens("seed", (40, 20), Options::default());
+    let mut student = Student::opens("tutorial", (40, 20), Options::default());
     student.types("tour 3").shows("step 3").shows("3/13");
     student.presses("enter").shows("step 4");
     student.presses("1").shows("view 40×40").shows("3/13");

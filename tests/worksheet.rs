@@ -33,7 +33,7 @@ fn worksheet(arguments: &str) -> String {
 
 #[test]
 fn the_tutorials_screen_makes_a_sheet_in_whole_numbers() {
-    insta::assert_snapshot!(worksheet("seed --seed 4 --count 5"));
+    insta::assert_snapshot!(worksheet("tutorial --seed 4 --count 5"));
 }
 
 #[test]
@@ -110,7 +110,7 @@ fn what_a_scene_shows_is_what_its_sheet_asks() {
             );
         }
     };
-    has("seed", &["it misses", "it touches", "it crosses"]);
+    has("tutorial", &["it misses", "it touches", "it crosses"]);
     has("trio", &["it misses", "it crosses"]);
     has("inside", &["p0 is inside"]);
     has("behind", &["behind the eye"]);
@@ -122,7 +122,7 @@ fn what_a_scene_shows_is_what_its_sheet_asks() {
 /// The command of the key, for a pixel of it, gives the ray of the sheet.
 #[test]
 fn the_key_names_the_command_that_shows_a_pixel() {
-    for (scene, count) in [("seed", 8), ("three-lines", 8)] {
+    for (scene, count) in [("tutorial", 8), ("three-lines", 8)] {
         let both = worksheet(&format!("{scene} --count {count}"));
         let words: Vec<_> = both.split_whitespace().collect();
         let at = words
@@ -173,7 +173,7 @@ fn what_makes_no_sheet_is_said_in_a_sentence() {
         .tempfile()
         .expect("a file");
     let file = empty.path().display().to_string();
-    let text = rayscope("scenes seed").out;
+    let text = rayscope("scenes tutorial").out;
     let end = text.find("[[sphere]]").expect("a sphere");
     let rest = text[end..]
         .find("[[probe]]")
@@ -182,9 +182,9 @@ fn what_makes_no_sheet_is_said_in_a_sentence() {
     for (arguments, status, said) in [
         ("nowhere", 1, "nowhere"),
         (file.as_str(), 1, "the scene has no spheres"),
-        ("seed --count 0", 2, "a whole number from 1 to 100"),
-        ("seed --size 0x4", 2, "--size"),
-        ("seed --format pdf", 2, "--format"),
+        ("tutorial --count 0", 2, "a whole number from 1 to 100"),
+        ("tutorial --size 0x4", 2, "--size"),
+        ("tutorial --format pdf", 2, "--format"),
     ] {
         let run = rayscope(&format!("worksheet {arguments}"));
         assert_eq!(run.status, status, "{arguments}: {}", run.err);

@@ -21,7 +21,7 @@ use crate::terminal::{self, Session};
 #[derive(Debug, Args)]
 pub(super) struct Explore {
     /// A scene file, or the name of a built-in scene
-    #[arg(default_value = "seed")]
+    #[arg(default_value = "tutorial")]
     scene: OsString,
 
     /// How the quadratic is evaluated

@@ -23,10 +23,10 @@ mod worksheet;
 use std::fmt;
 use std::process::ExitCode;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::text::read;
+use crate::text::{by_name, former_names, read};
 use failure::{DONE, Failure, Outcome};
 use output::{complain, save, unwritable, write_out};
 
@@ -103,10 +103,10 @@ fn choice<T: Copy + Send + Sync + 'static>(
     all: &'static [T],
     name: fn(T) -> &'static str,
 ) -> impl TypedValueParser<Value = T> {
-    PossibleValuesParser::new(all.iter().map(|&v| name(v))).try_map(move |given| {
-        let found = all.iter().copied().find(|&v| name(v) == given);
-        found.ok_or("no such name")
-    })
+    let names = all.iter().map(|&v| name(v));
+    let values = names.map(|name| PossibleValue::new(name).aliases(former_names(name)));
+    PossibleValuesParser::new(values)
+        .try_map(move |given| by_name(all.iter().copied(), name, &given).ok_or("no such name"))
 }
 
 /// Reads how many times as high as wide a cell is.

@@ -131,8 +131,8 @@ mod tests {
     #[test]
     fn the_command_for_a_view_opens_the_same_view() {
         for (line, keys) in [
-            ("seed", ""),
-            ("seed --method textbook", "llljj⏎⏎⏎⏎⏎⏎⏎"),
+            ("tutorial", ""),
+            ("tutorial --method textbook", "llljj⏎⏎⏎⏎⏎⏎⏎"),
             ("trio", "naaaWWee"),
             ("trio --style ascii", "n  x+"),
             ("trio --aspect 1.7", "jjjjG:set up.x 0.25⏎"),
@@ -192,7 +192,7 @@ mod tests {
         };
         for (line, sentence) in [
             (
-                "seed --cursor 40,0",
+                "tutorial --cursor 40,0",
                 "--cursor 40,0: expected a pixel of 40×40, counted from 0,0",
             ),
             (
@@ -212,7 +212,7 @@ mod tests {
                 "--set radius=nan: radius is “nan”: expected a finite number",
             ),
             (
-                "seed --step 99",
+                "tutorial --step 99",
                 "--step: found “99”, expected a step's name or 1 to 23",
             ),
             (
@@ -224,9 +224,9 @@ mod tests {
             assert_eq!(said(line), Failure::misused(sentence));
         }
         for (line, part) in [
-            ("seed --size 9x9", "--cursor"),
-            ("seed --t nan", "--t"),
-            ("seed --t 0x1.8q", "0x1.8q"),
+            ("tutorial --size 9x9", "--cursor"),
+            ("tutorial --t nan", "--t"),
+            ("tutorial --t 0x1.8q", "0x1.8q"),
             ("trio --set size=1", "expected one of center.x, center.y"),
         ] {
             let Failure { status, sentence } = said(line);

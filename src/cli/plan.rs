@@ -29,7 +29,7 @@ pub(super) struct Plan {
     #[arg(long, value_parser = choice(&Style::ALL, Style::name), default_value = Style::Half.name())]
     style: Style,
 
-    /// What the picture shows [default: shade; in the style seed, class]
+    /// What the picture shows [default: shade; in the style tutorial, class]
     #[arg(long, value_parser = choice(&View::ALL, View::name))]
     view: Option<View>,
 

@@ -28,7 +28,7 @@ pub(super) struct Print {
     #[arg(long, env = "RAYSCOPE_STYLE", hide_env_values = true, value_parser = choice(&Style::ALL, Style::name))]
     style: Option<Style>,
 
-    /// What the picture shows [default: shade; in the style seed, class]
+    /// What the picture shows [default: shade; in the style tutorial, class]
     #[arg(long, value_parser = choice(&View::ALL, View::name))]
     view: Option<View>,
 

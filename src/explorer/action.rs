@@ -191,7 +191,7 @@ actions! {
     NextView "next-view" ["v"] View;
     /// previous view
     PreviousView "previous-view" ["V"] View;
-    /// next style: half, braille, ascii, seed
+    /// next style: half, braille, ascii, tutorial
     NextStyle "next-style" ["b"] View;
     /// previous style
     PreviousStyle "previous-style" ["B"] View;

@@ -11,6 +11,7 @@ use crate::explorer::edit::field::{Field, parse_number};
 use crate::explorer::files::workplace::Workplace;
 use crate::explorer::panel::Panel;
 use crate::explorer::tour::chapter as tour;
+use crate::text::by_name;
 
 /// A line that was understood.
 #[derive(Debug, Clone, PartialEq)]
@@ -193,16 +194,13 @@ pub(crate) fn choice<T: Copy>(
     name: impl Fn(T) -> &'static str,
 ) -> Result<T, String> {
     let all: Vec<T> = all.into_iter().collect();
-    all.iter()
-        .copied()
-        .find(|&v| name(v) == rest)
-        .ok_or_else(|| {
-            let names: Vec<_> = all.into_iter().map(name).collect();
-            format!(
-                "{what}: found “{rest}”, expected one of {}",
-                names.join(", ")
-            )
-        })
+    by_name(all.iter().copied(), &name, rest).ok_or_else(|| {
+        let names: Vec<_> = all.into_iter().map(name).collect();
+        format!(
+            "{what}: found “{rest}”, expected one of {}",
+            names.join(", ")
+        )
+    })
 }
 
 fn dial(rest: &str) -> Result<Command, String> {

@@ -226,7 +226,7 @@ mod tests {
         };
         for (scene, rays) in [
             picture("grazing"),
-            picture("seed"),
+            picture("tutorial"),
             far("trio", 8),
             far("trio", 11),
         ] {
@@ -263,7 +263,7 @@ mod tests {
 
     #[test]
     fn a_chart_is_of_the_picture_and_can_be_cancelled() {
-        let (scene, rays) = picture("seed");
+        let (scene, rays) = picture("tutorial");
         let cancelled = AtomicBool::new(true);
         let queue = BenchQueue::private();
         let draw = |cancel| chart(&scene, &rays, &queue, cancel, |_| ());

@@ -173,7 +173,7 @@ impl Painter<'_> {
             Style::Half => self.half(x, y),
             Style::Braille => self.braille(x, y),
             Style::Ascii => self.ascii(x, y),
-            Style::Seed => Cell::plain(self.seed(x, y)),
+            Style::Tutorial => Cell::plain(self.tutorial(x, y)),
         }
     }
 
@@ -204,7 +204,7 @@ impl Painter<'_> {
     }
 
     /// The tutorial's two characters, of which this is one.
-    fn seed(&self, x: u32, y: u32) -> char {
+    fn tutorial(&self, x: u32, y: u32) -> char {
         match self.frame.contact(x, y) {
             Contact::Nan => NO_ANSWER,
             contact if contact.meets() => '+',

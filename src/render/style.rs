@@ -1,6 +1,7 @@
 //! Styles: how many pixels a cell of the terminal shows, and how a picture fits its room.
 
 use crate::scene::{PixelShape, Scene, Size};
+use crate::text::by_name;
 
 /// How many pixels a cell shows, and with what.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -13,12 +14,12 @@ pub enum Style {
     /// One pixel a cell, on a ramp of characters.
     Ascii,
     /// One pixel in two cells, `++` for a hit and `--` for a miss, as the tutorial prints it.
-    Seed,
+    Tutorial,
 }
 
 impl Style {
     /// All styles, in the order in which lists show them.
-    pub const ALL: [Self; 4] = [Self::Half, Self::Braille, Self::Ascii, Self::Seed];
+    pub const ALL: [Self; 4] = [Self::Half, Self::Braille, Self::Ascii, Self::Tutorial];
 
     /// The name on the command line and on the screen.
     pub const fn name(self) -> &'static str {
@@ -26,13 +27,13 @@ impl Style {
             Self::Half => "half",
             Self::Braille => "braille",
             Self::Ascii => "ascii",
-            Self::Seed => "seed",
+            Self::Tutorial => "tutorial",
         }
     }
 
     /// The style of that name.
     pub fn by_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|s| s.name() == name)
+        by_name(Self::ALL, Self::name, name)
     }
 
     /// The style after this one, round and round.
@@ -41,8 +42,8 @@ impl Style {
         match self {
             Self::Half => Self::Braille,
             Self::Braille => Self::Ascii,
-            Self::Ascii => Self::Seed,
-            Self::Seed => Self::Half,
+            Self::Ascii => Self::Tutorial,
+            Self::Tutorial => Self::Half,
         }
     }
 
@@ -52,7 +53,7 @@ impl Style {
             Self::Half => (1, [1, 2]),
             Self::Braille => (1, [2, 4]),
             Self::Ascii => (1, [1, 1]),
-            Self::Seed => (2, [1, 1]),
+            Self::Tutorial => (2, [1, 1]),
         };
         Block { cells, pixels }
     }

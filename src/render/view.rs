@@ -68,7 +68,7 @@ impl View {
     #[must_use]
     pub const fn shown_in(self, style: Style) -> Self {
         match style {
-            Style::Seed => Self::Class,
+            Style::Tutorial => Self::Class,
             Style::Half | Style::Braille | Style::Ascii => self,
         }
     }
@@ -76,7 +76,7 @@ impl View {
     /// How to read the picture: in `ascii` the characters, in the other styles light and dark.
     pub const fn legend(self, style: Style) -> &'static str {
         match (self.shown_in(style), style) {
-            (_, Style::Seed) => "++ the line meets a sphere, -- it does not, ?? no answer",
+            (_, Style::Tutorial) => "++ the line meets a sphere, -- it does not, ?? no answer",
             (Self::Shade, Style::Ascii) => "from . dark to @ bright; ? no answer",
             (Self::Shade, _) => "dark to bright: how squarely the light falls; ? no answer",
             (Self::Class, Style::Ascii) => {

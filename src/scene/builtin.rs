@@ -4,13 +4,14 @@
 mod crowd;
 
 use super::Scene;
+use crate::text::by_name;
 
 /// A scene that comes with the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Builtin {
     /// The tutorial's screen.
     #[default]
-    Seed,
+    Tutorial,
     /// A line that misses, one that touches, one that crosses.
     ThreeLines,
     /// Three spheres in perspective, overlapping.
@@ -32,7 +33,7 @@ pub enum Builtin {
 impl Builtin {
     /// All of them, in the order in which lists show them.
     pub const ALL: [Self; 9] = [
-        Self::Seed,
+        Self::Tutorial,
         Self::ThreeLines,
         Self::Trio,
         Self::Inside,
@@ -46,7 +47,7 @@ impl Builtin {
     /// The name on the command line.
     pub const fn name(self) -> &'static str {
         match self {
-            Self::Seed => "seed",
+            Self::Tutorial => "tutorial",
             Self::ThreeLines => "three-lines",
             Self::Trio => "trio",
             Self::Inside => "inside",
@@ -60,7 +61,7 @@ impl Builtin {
 
     /// The built-in scene of that name.
     pub fn by_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|b| b.name() == name)
+        by_name(Self::ALL, Self::name, name)
     }
 
     /// One sentence on what there is to see.
@@ -80,7 +81,7 @@ impl Builtin {
     /// What the embedded file says; of `crowd`, all but the spheres.
     fn file(self) -> Scene {
         let text = match self {
-            Self::Seed => include_str!("builtin/seed.toml"),
+            Self::Tutorial => include_str!("builtin/tutorial.toml"),
             Self::ThreeLines => include_str!("builtin/three-lines.toml"),
             Self::Trio => include_str!("builtin/trio.toml"),
             Self::Inside => include_str!("builtin/inside.toml"),

@@ -13,7 +13,7 @@ use rustix::process::Signal;
 
 #[test]
 fn a_person_opens_moves_reads_saves_and_quits() {
-    let mut pty = Pty::explorer(Start::default().args(&["seed", "--method", "textbook"]));
+    let mut pty = Pty::explorer(Start::default().args(&["tutorial", "--method", "textbook"]));
     // A, B, C and the discriminant of pixel (20, 20), where the cursor starts.
     for line in ["(20, 20)", "d·d", "two points"] {
         pty.waits_to_show(line);

@@ -139,7 +139,7 @@ impl Drop for Server {
 #[ignore = "RAYSCOPE_SSHD names no sshd"]
 fn a_person_opens_moves_saves_and_quits() {
     let server = Server::start("");
-    let mut pty = Pty::explorer(server.explorer("seed"));
+    let mut pty = Pty::explorer(server.explorer("tutorial"));
     pty.waits_to_show("pixel (20, 20)");
     pty.sends("\x1b[C\x1b[B");
     pty.waits_to_show("pixel (21, 21)");
@@ -165,12 +165,12 @@ fn signals_and_ctrl_c_end_it_and_the_status_comes_back() {
         (Signal::QUIT, 131),
         (Signal::TERM, 143),
     ] {
-        let mut pty = Pty::explorer(server.explorer("seed"));
+        let mut pty = Pty::explorer(server.explorer("tutorial"));
         kill_process(server.pid(), signal).expect("the signal is sent");
         assert_eq!(pty.ends(), status);
         pty.is_restored();
     }
-    let mut pty = Pty::explorer(server.explorer("seed"));
+    let mut pty = Pty::explorer(server.explorer("tutorial"));
     pty.sends("\x03");
     assert_eq!(pty.ends(), 130);
     pty.is_restored();
@@ -180,7 +180,7 @@ fn signals_and_ctrl_c_end_it_and_the_status_comes_back() {
 #[ignore = "RAYSCOPE_SSHD names no sshd"]
 fn a_killed_connection_ends_it_and_loses_nothing() {
     let mut server = Server::start("");
-    let mut pty = Pty::explorer(server.explorer("seed"));
+    let mut pty = Pty::explorer(server.explorer("tutorial"));
     pty.sends("x");
     pty.waits_to_show("unsaved");
     // The client goes without a word, as when its machine does.
@@ -193,7 +193,7 @@ fn a_killed_connection_ends_it_and_loses_nothing() {
         .mode();
     assert_eq!(mode & 0o777, 0o600);
 
-    let mut pty = Pty::explorer(server.explorer("seed"));
+    let mut pty = Pty::explorer(server.explorer("tutorial"));
     pty.waits_to_show("Unsaved work of");
     pty.sends("o");
     pty.waits_to_show("c    21, 20, 20");
@@ -207,7 +207,7 @@ fn a_killed_connection_ends_it_and_loses_nothing() {
 fn a_hangup_that_is_ignored_leaves_nothing_running() {
     let mut server = Server::start("");
     // As under nohup: the signal says nothing, the closed terminal has to.
-    let pty = Pty::explorer(server.explorer_after("trap \"\" HUP && ", "seed"));
+    let pty = Pty::explorer(server.explorer_after("trap \"\" HUP && ", "tutorial"));
     pty.is_sent(Signal::KILL);
     server.waits_for_its_end();
 }
@@ -228,14 +228,14 @@ fn only_term_crosses_by_itself() {
         assert_eq!(pty.ends(), 0);
     };
     let server = Server::start("");
-    let mut pty = Pty::explorer(local(server.explorer("seed")));
+    let mut pty = Pty::explorer(local(server.explorer("tutorial")));
     ends(&mut pty);
     assert!(pty.bytes().is_ascii(), "LANG does not cross");
     assert!(pty.occurrences(b"8;5;") > 0, "TERM tells of 256 colours");
     assert_eq!(pty.occurrences(b"8;2;"), 0, "COLORTERM does not cross");
 
     let server = Server::start("SetEnv LANG=C.UTF-8 COLORTERM=truecolor\n");
-    let mut pty = Pty::explorer(local(server.explorer("seed")));
+    let mut pty = Pty::explorer(local(server.explorer("tutorial")));
     ends(&mut pty);
     assert!(!pty.bytes().is_ascii());
     assert!(pty.occurrences(b"8;2;") > 0);

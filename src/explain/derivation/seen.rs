@@ -298,7 +298,7 @@ fn glyph_step(subject: &Subject, drawn: &Drawn) -> Step {
     };
     let shown = three_digits(drawn.brightness.into());
     let (formula, numbers, code) = match (view, style) {
-        (_, Style::Seed) => (
+        (_, Style::Tutorial) => (
             "++ for a point in common, -- for none".to_owned(),
             format!("a {}", subject.solution.class),
             "contact if contact.meets() => '+',",
@@ -392,7 +392,7 @@ mod tests {
 
     #[test]
     fn the_shade_is_the_same_number_in_every_view() {
-        let scene = Builtin::Seed.scene();
+        let scene = Builtin::Tutorial.scene();
         let shades = [View::Shade, View::Class, View::Depth].map(|view| {
             let (size, shape) = fit(&scene, Style::Half, 40, 20, 2.0);
             let rays = Rays::new(&scene.camera, size, shape);

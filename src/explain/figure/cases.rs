@@ -27,16 +27,16 @@ pub(super) fn case(o: [f32; 3], d: [f32; 3], c: [f32; 3], r: f32) -> (Subject, R
 /// The cases by name.
 pub(super) fn named(name: &str) -> (Subject, Ray) {
     let down = [0.0, 0.0, 1.0];
-    let seed = |x, y| case([x, y, 0.0], down, [20.0; 3], 10.0);
+    let tutorial = |x, y| case([x, y, 0.0], down, [20.0; 3], 10.0);
     let across = [1.0, 0.0, 0.0];
     let marble = |o| case(o, across, [0.0; 3], 1.0);
     let earth = |y, d| case([0.0, y, 0.0], d, [0.0, -6.371e6, 0.0], 6.371e6);
     match name {
-        "seed centre" => seed(20.0, 20.0),
-        "seed off centre" => seed(14.0, 20.0),
-        "seed tangent" => seed(30.0, 20.0),
-        "seed miss" => seed(31.0, 20.0),
-        "seed wide miss" => seed(0.0, 0.0),
+        "tutorial centre" => tutorial(20.0, 20.0),
+        "tutorial off centre" => tutorial(14.0, 20.0),
+        "tutorial tangent" => tutorial(30.0, 20.0),
+        "tutorial miss" => tutorial(31.0, 20.0),
+        "tutorial wide miss" => tutorial(0.0, 0.0),
         "inside" => case([0.25, 0.5, -0.25], [1.0, 1.0, 0.0], [0.0; 3], 1.0),
         "behind" => case([0.0; 3], down, [0.0, 5.0, -20.0], 10.0),
         "far" => marble([-4100.0, 0.5, 0.0]),
@@ -59,11 +59,11 @@ pub(super) fn named(name: &str) -> (Subject, Ray) {
 
 /// All their names.
 pub(super) const NAMES: [&str; 21] = [
-    "seed centre",
-    "seed off centre",
-    "seed tangent",
-    "seed miss",
-    "seed wide miss",
+    "tutorial centre",
+    "tutorial off centre",
+    "tutorial tangent",
+    "tutorial miss",
+    "tutorial wide miss",
     "inside",
     "behind",
     "far",

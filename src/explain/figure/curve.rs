@@ -490,7 +490,7 @@ mod tests {
 
     #[test]
     fn the_polynomial_is_that_of_the_tutorial() {
-        let (subject, ray) = cases::named("seed centre");
+        let (subject, ray) = cases::named("tutorial centre");
         let section = Section::new(&ray, &subject.sphere);
         assert_eq!(polynomial(&section), ("=", "t² − 40t + 300".to_owned()));
         let (subject, ray) = cases::named("grazing miss");

@@ -69,7 +69,7 @@ mod tests {
     fn landmarks_stand_in_the_order_of_t() {
         let words = |name| of(name).into_iter().map(|(t, what)| format!("{t} {what}"));
         assert_eq!(
-            words("seed centre").collect::<Vec<_>>(),
+            words("tutorial centre").collect::<Vec<_>>(),
             [
                 "0 p0, the start of the ray",
                 "10 into the sphere",
@@ -78,11 +78,11 @@ mod tests {
             ]
         );
         assert_eq!(
-            words("seed tangent").collect::<Vec<_>>(),
+            words("tutorial tangent").collect::<Vec<_>>(),
             ["0 p0, the start of the ray", "20 touching the sphere"]
         );
         assert_eq!(
-            words("seed wide miss").collect::<Vec<_>>(),
+            words("tutorial wide miss").collect::<Vec<_>>(),
             ["0 p0, the start of the ray", "20 closest to the centre"]
         );
         assert_eq!(

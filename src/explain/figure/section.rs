@@ -277,11 +277,11 @@ mod tests {
 
     #[test]
     fn the_numbers_of_the_tutorial() {
-        let s = section("seed off centre");
+        let s = section("tutorial off centre");
         assert_eq!((s.near, s.foot, s.far), (12.0, 20.0, 28.0));
         assert_eq!((s.distance, s.half, s.depth()), (6.0, 8.0, 4.0));
         assert_eq!(s.power(Anchor::Start, 0.0), 336.0);
-        let s = section("seed miss");
+        let s = section("tutorial miss");
         assert_eq!((s.distance, s.half), (11.0, 21.0_f64.sqrt()));
         assert_eq!(s.depth(), -1.0);
     }

@@ -532,7 +532,13 @@ mod tests {
 
     #[test]
     fn the_circle_is_round_and_closed() {
-        for name in ["seed centre", "seed off centre", "inside", "behind", "far"] {
+        for name in [
+            "tutorial centre",
+            "tutorial off centre",
+            "inside",
+            "behind",
+            "far",
+        ] {
             for (cols, rows) in [(36, 20), (56, 18), (100, 40), (14, 6)] {
                 let mut drawing = drawing(&cases::named(name), cols, rows);
                 drawing.circle();

@@ -241,7 +241,7 @@ mod tests {
             assert_eq!([mode(&kept), mode(&folder)], [0o600, 0o700]);
         }
 
-        let mut other = opened(&folder, "seed");
+        let mut other = opened(&folder, "tutorial");
         assert_eq!(other.mode, Mode::Normal);
         let said = other.message.take().expect("a message").text;
         assert!(
