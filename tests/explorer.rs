@@ -15,12 +15,13 @@ use ratatui::layout::Rect;
 use ratatui::style::Color;
 use rayscope::explain::{Digits, number};
 use rayscope::explorer::action::{Action, markdown};
-use rayscope::explorer::{Explorer, Options, Request, Waker, Workplace};
+use rayscope::explorer::{Explorer, Options, Request, Workplace};
 use rayscope::geometry::Ray;
 use rayscope::lab::{BenchQueue, HEADER};
 use rayscope::method::{Class, Method, Precision};
 use rayscope::render::{ColorDepth, Style};
 use rayscope::scene::{PixelShape, Rays, Scene, Size};
+use rayscope::system::Waker;
 use rayscope::text::Glyphs;
 use tempfile::TempDir;
 

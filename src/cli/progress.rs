@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::Failure;
+use crate::system;
 
 /// 128 + SIGINT.
 pub(super) const INTERRUPTED: u8 = 130;
@@ -21,16 +22,8 @@ pub(super) struct Progress {
 impl Progress {
     /// A run of `all` parts that is about to begin.
     pub fn new(what: &'static str, all: usize) -> Result<Self, Failure> {
-        Self::heeding(what, all).map_err(|e| Failure::invalid(format_args!("signals: {e}")))
-    }
-
-    fn heeding(what: &'static str, all: usize) -> std::io::Result<Self> {
-        let interrupt = Arc::new(AtomicBool::new(false));
-        // Pressed twice, Ctrl-C ends the program at once.
-        let signal = signal_hook::consts::SIGINT;
-        let pressed = Arc::clone(&interrupt);
-        signal_hook::flag::register_conditional_shutdown(signal, INTERRUPTED.into(), pressed)?;
-        signal_hook::flag::register(signal, Arc::clone(&interrupt))?;
+        let interrupt = system::interrupt_flag(INTERRUPTED)
+            .map_err(|e| Failure::invalid(format_args!("signals: {e}")))?;
         Ok(Self {
             what,
             all,

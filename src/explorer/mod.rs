@@ -32,7 +32,6 @@ pub use files::workplace::Workplace;
 pub use link::{Opening, command_line};
 pub use options::{Options, Reasons, Request};
 pub use panel::Panel;
-pub use panel::error::Waker;
 pub use plain::Reply;
 
 use arrival::Arrival;

@@ -80,7 +80,7 @@ impl Explorer {
     }
 
     /// Does what a line says, and tells what that changed.
-    pub fn obey(&mut self, line: &str) -> Reply {
+    pub fn run_line(&mut self, line: &str) -> Reply {
         let line = line.trim();
         if line.is_empty() || line.starts_with('#') {
             return Reply::default();

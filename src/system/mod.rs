@@ -1,13 +1,94 @@
-//! The system below the program: what differs from one operating system to the next.
+//! The system below the program: the terminal as a device, what wakes a loop, signals, locks of the
+//! host, private files. A file for each system; nothing else in the crate asks which one it is.
 //!
-//! Nothing else in the crate asks which system it is built for.
+//! Where systems have what others lack: Windows has no signal to stop, none for a terminal that is
+//! gone, and no bytes of keys, but events. On macOS `poll` calls `/dev/tty` invalid, so that a
+//! terminal has to be reached by its own name there; nobody has run it there yet.
 
 pub mod file;
 #[cfg_attr(unix, path = "unix.rs")]
 #[cfg_attr(windows, path = "windows.rs")]
 mod platform;
 
-pub use platform::HostLock;
+use std::fmt;
+use std::sync::Arc;
+
+use ratatui::crossterm::event::Event;
+
+#[cfg(test)]
+pub use platform::is_private;
+pub use platform::{
+    Device, HostLock, Inbox, LineInput, create_private_folder, has_job_control, interrupt_flag,
+    is_terminal_gone, new_file_permissions, stop_job, stop_process,
+};
+
+/// The exit status of a program that lost its terminal: 128 and the number of SIGHUP.
+pub const HUNG_UP: u8 = 129;
+
+/// What a signal asks for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SignalRequest {
+    /// To end; the exit status says by which signal.
+    End(u8),
+    /// To stop until told to go on.
+    Stop,
+    /// To go on.
+    GoOn,
+    /// To look how large the terminal is.
+    Resize,
+}
+
+/// What came in while a loop waited.
+#[derive(Debug, Default)]
+pub struct Arrivals {
+    /// What was typed, as the terminal sends it.
+    pub bytes: Vec<u8>,
+    /// What was typed, where the system reads the keys itself.
+    pub events: Vec<Event>,
+    /// What signals ask for.
+    pub signals: Vec<SignalRequest>,
+    /// Another thread used the [`Waker`].
+    pub is_woken: bool,
+    /// More can be written.
+    pub is_writable: bool,
+    /// The terminal is gone.
+    pub is_gone: bool,
+}
+
+/// What a look at the lines of standard input found.
+#[derive(Debug)]
+pub enum LinePart {
+    /// Bytes, of which the last line need not be whole; none if nothing came.
+    Bytes(Vec<u8>),
+    /// The input has ended.
+    End,
+    /// The process is to end with this status.
+    Leave(u8),
+}
+
+/// Wakes whoever waits for input, from any thread; nobody, if nobody is set.
+#[derive(Clone, Default)]
+pub struct Waker(Option<Arc<dyn Fn() + Send + Sync>>);
+
+impl Waker {
+    /// Wakes by calling this.
+    pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
+        Self(Some(Arc::new(wake)))
+    }
+
+    /// Wakes.
+    pub fn wake(&self) {
+        if let Some(wake) = &self.0 {
+            wake();
+        }
+    }
+}
+
+impl fmt::Debug for Waker {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Waker")
+    }
+}
 
 #[cfg(test)]
 mod tests {

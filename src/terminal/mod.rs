@@ -5,14 +5,11 @@
 
 mod capability;
 mod clipboard;
-mod device;
 mod keyboard;
 mod pace;
 mod painter;
 mod plain;
 mod session;
-mod signals;
-mod wake;
 
 use std::io;
 
@@ -24,12 +21,11 @@ pub use painter::{Limits, Painter};
 pub use plain::converse;
 pub use session::Session;
 
-use crate::explorer::{Explorer, Request, Waker};
+use crate::explorer::{Explorer, Request};
+use crate::system::Waker;
 
 /// Most events taken before a drawing, so that a flood of input can't keep the screen from it.
 const MOST_AT_ONCE: usize = 512;
-/// The exit status of who lost the terminal: 128 and the number of SIGHUP.
-const HUNG_UP: u8 = 129;
 
 /// What comes in from outside.
 #[derive(Debug, Clone, PartialEq, Eq)]

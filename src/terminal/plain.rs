@@ -1,21 +1,14 @@
 //! The explorer without a screen: lines in, lines out, on a terminal or through pipes.
 
-use std::io::{self, ErrorKind, IsTerminal, Write};
-use std::os::fd::AsFd;
+use std::io::{self, ErrorKind, Write};
 use std::sync::mpsc;
 
-use rustix::event::{PollFd, PollFlags, Timespec, poll};
-use rustix::io::{Errno, read};
-use rustix::stdio::stdin;
-
-use super::HUNG_UP;
-use super::signals::{self, Asked, Signals};
 use crate::door::without_mark;
-use crate::explorer::{Explorer, Reply, Waker};
+use crate::explorer::{Explorer, Reply};
+use crate::system::{HUNG_UP, LineInput, LinePart, Waker, is_terminal_gone};
 
 /// No line of a person or of a sane script is longer, in bytes.
 const LONGEST_LINE: usize = 1 << 16;
-const READ_BYTES: usize = 4096;
 const PROMPT: &str = "> ";
 /// The exit status of a script of which a line could not be done.
 const REFUSED: u8 = 1;
@@ -48,20 +41,20 @@ pub fn converse(explorer: &mut Explorer, present: bool) -> io::Result<u8> {
             Ok(true) => {}
             Ok(false) => return Ok(0),
             // The terminal is closed.
-            Err(e) if Errno::from_io_error(&e) == Some(Errno::IO) => return Ok(HUNG_UP),
+            Err(e) if is_terminal_gone(&e) => return Ok(HUNG_UP),
             Err(e) => return Err(e),
         }
         let status = match status {
             Some(status) => Some(status),
             None => match lines.next()? {
-                Heard::Line(line) => {
-                    reply = explorer.obey(&line);
+                NextLine::Line(line) => {
+                    reply = explorer.run_line(&line);
                     while explorer.is_measuring() && woken.recv().is_ok() {
                         explorer.catch_up();
                     }
                     None
                 }
-                Heard::TooLong => {
+                NextLine::TooLong => {
                     reply = Reply {
                         text: format!("A line is longer than {LONGEST_LINE} bytes.\n"),
                         question: None,
@@ -69,7 +62,7 @@ pub fn converse(explorer: &mut Explorer, present: bool) -> io::Result<u8> {
                     };
                     None
                 }
-                Heard::End(status) => Some(status),
+                NextLine::End(status) => Some(status),
             },
         };
         match status {
@@ -96,7 +89,7 @@ fn say(reply: &Reply, prompt: bool) -> io::Result<bool> {
 }
 
 /// What comes in.
-enum Heard {
+enum NextLine {
     Line(String),
     TooLong,
     /// No more is to come; the exit status.
@@ -105,45 +98,44 @@ enum Heard {
 
 /// Standard input, line by line, and the signals beside it.
 struct Lines {
-    signals: Signals,
+    input: LineInput,
     pending: Vec<u8>,
     /// The line at hand is too long: the rest of it is passed over.
     is_skipping: bool,
     is_over: bool,
     /// Lines taken so far: the first may have a byte order mark before it.
     taken: usize,
-    /// It is a terminal, whose end is no end of a script.
-    is_terminal: bool,
 }
 
 impl Lines {
     fn new() -> io::Result<Self> {
         Ok(Self {
-            signals: Signals::take()?,
+            input: LineInput::open()?,
             pending: Vec::new(),
             is_skipping: false,
             is_over: false,
             taken: 0,
-            is_terminal: io::stdin().is_terminal(),
         })
     }
 
-    fn next(&mut self) -> io::Result<Heard> {
+    fn next(&mut self) -> io::Result<NextLine> {
         loop {
-            if let Some(heard) = self.take_line() {
-                return Ok(heard);
+            if let Some(line) = self.take_line() {
+                return Ok(line);
             }
             if self.is_over {
-                return Ok(Heard::End(0));
+                return Ok(NextLine::End(0));
             }
-            if let Some(status) = self.wait()? {
-                return Ok(Heard::End(status));
+            match self.input.wait()? {
+                LinePart::Bytes(bytes) => self.pending.extend(bytes),
+                LinePart::End => self.is_over = true,
+                LinePart::Leave(status) => return Ok(NextLine::End(status)),
             }
         }
     }
 
     /// The first whole line of what has come in; at the end, what there is.
-    fn take_line(&mut self) -> Option<Heard> {
+    fn take_line(&mut self) -> Option<NextLine> {
         let end = self.pending.iter().position(|&b| b == b'\n');
         let length = match end {
             Some(at) => at + 1,
@@ -158,7 +150,7 @@ impl Lines {
         };
         let line: Vec<u8> = self.pending.drain(..length).collect();
         if std::mem::take(&mut self.is_skipping) || line.len() > LONGEST_LINE {
-            return Some(Heard::TooLong);
+            return Some(NextLine::TooLong);
         }
         let text = String::from_utf8_lossy(&line);
         self.taken += 1;
@@ -167,54 +159,6 @@ impl Lines {
         } else {
             &text
         };
-        Some(Heard::Line(text.to_owned()))
+        Some(NextLine::Line(text.to_owned()))
     }
-
-    /// Waits for input or a signal; the exit status if it is over.
-    fn wait(&mut self) -> io::Result<Option<u8>> {
-        let mut files = [
-            PollFd::from_borrowed_fd(stdin(), PollFlags::IN),
-            PollFd::from_borrowed_fd(self.signals.as_fd(), PollFlags::IN),
-        ];
-        match poll(&mut files, None) {
-            Ok(_) | Err(Errno::INTR) => {}
-            Err(e) => return Err(e.into()),
-        }
-        let [input, signal] = files.map(|f| f.revents());
-        if !signal.is_empty() {
-            for asked in self.signals.pending().collect::<Vec<_>>() {
-                match asked {
-                    Asked::End(status) => return Ok(Some(status)),
-                    Asked::Stop => signals::stop()?,
-                    Asked::GoOn | Asked::Resize => {}
-                }
-            }
-        }
-        if input.is_empty() {
-            return Ok(None);
-        }
-        if self.is_terminal && input.intersects(PollFlags::HUP | PollFlags::ERR) {
-            return Ok(Some(HUNG_UP));
-        }
-        let mut bytes = [0; READ_BYTES];
-        match read(stdin(), &mut bytes) {
-            // A terminal that went away after the question reads as one where ctrl-d was pressed.
-            Ok(0) if self.is_terminal && is_hung_up()? => return Ok(Some(HUNG_UP)),
-            Ok(0) => self.is_over = true,
-            Ok(n) => self.pending.extend_from_slice(&bytes[..n]),
-            Err(Errno::INTR | Errno::AGAIN) => {}
-            // The terminal is closed.
-            Err(Errno::IO) => return Ok(Some(HUNG_UP)),
-            Err(e) => return Err(e.into()),
-        }
-        Ok(None)
-    }
-}
-
-/// Whether the terminal is gone.
-fn is_hung_up() -> io::Result<bool> {
-    let mut input = [PollFd::from_borrowed_fd(stdin(), PollFlags::empty())];
-    poll(&mut input, Some(&Timespec::default()))?;
-    let gone = PollFlags::HUP | PollFlags::ERR;
-    Ok(input[0].revents().intersects(gone))
 }

@@ -3,24 +3,21 @@
 
 use std::collections::VecDeque;
 use std::io;
-use std::os::fd::AsFd;
 use std::panic;
 use std::sync::{Arc, Mutex, MutexGuard, Once, PoisonError};
 use std::time::{Duration, Instant};
 
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-use rustix::process::{Signal, kill_current_process_group};
-
 use super::clipboard;
-use super::device::Device;
 use super::keyboard::{Heard, Keyboard};
 use super::pace::{Detail, Pace, QUERY};
 use super::painter::{Limits, Painter};
-use super::signals::{self, Asked, Signals};
-use super::wake::Alarm;
-use super::{HUNG_UP, Input, Link};
-use crate::explorer::{Explorer, Waker};
+use super::{Input, Link};
+use crate::explorer::Explorer;
+use crate::system::{
+    Device, HUNG_UP, Inbox, SignalRequest, Waker, has_job_control, stop_job, stop_process,
+};
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
 
 /// The alternate screen; pastes marked as such.
 const ENTER: &[u8] = b"\x1b[?1049h\x1b[?2004h";
@@ -37,8 +34,6 @@ const REST_PATIENCE: Duration = Duration::from_millis(50);
 const END_PATIENCE: Duration = Duration::from_millis(500);
 /// How long the answer to the last query may hold up the end.
 const LAST_ANSWER: Duration = Duration::from_millis(200);
-/// What one read takes: some hundred keys.
-const READ_BYTES: usize = 1024;
 
 /// The terminal that is ours now, for a panic to give back.
 static HELD: Mutex<Option<Arc<Device>>> = Mutex::new(None);
@@ -47,8 +42,7 @@ static HELD: Mutex<Option<Arc<Device>>> = Mutex::new(None);
 #[derive(Debug)]
 pub struct Session {
     device: Arc<Device>,
-    signals: Signals,
-    alarm: Alarm,
+    inbox: Inbox,
     keyboard: Keyboard,
     /// When what has begun on the keyboard is taken as it stands.
     settles: Option<Instant>,
@@ -81,8 +75,7 @@ impl Session {
         restore_on_panic();
         let mut session = Self {
             device: Arc::new(Device::open()?),
-            signals: Signals::take()?,
-            alarm: Alarm::new()?,
+            inbox: Inbox::open()?,
             keyboard: Keyboard::default(),
             settles: None,
             inputs: VecDeque::new(),
@@ -172,64 +165,49 @@ impl Session {
     /// Waits at most that long, without end if none is given, and takes in what there is.
     fn look(&mut self, patience: Option<Duration>) -> io::Result<()> {
         let unwritten = !self.frame.is_empty();
-        let others = [self.signals.as_fd(), self.alarm.as_fd()];
-        let ready = self.device.wait(others, unwritten, patience)?;
-        if ready.gone {
+        let arrivals = self.inbox.wait(&self.device, unwritten, patience)?;
+        if arrivals.is_gone {
             self.hang_up();
-            return Ok(());
         }
-        if ready.signal {
-            for asked in self.signals.pending().collect::<Vec<_>>() {
-                self.heed(asked)?;
-            }
+        for request in arrivals.signals {
+            self.handle_signal(request)?;
         }
-        if ready.woken {
-            self.alarm.quiet()?;
+        if arrivals.is_woken {
             self.inputs.push_back(Input::Woken);
         }
-        if ready.input {
-            self.listen()?;
+        let events = arrivals.events.into_iter().map(Input::Event);
+        self.inputs.extend(events);
+        if !arrivals.bytes.is_empty() {
+            let mut heard = VecDeque::new();
+            self.keyboard.feed(&arrivals.bytes, &mut heard);
+            self.take_in(heard);
         } else if self.settles.is_some_and(|at| at <= Instant::now()) {
             let mut heard = VecDeque::new();
             self.keyboard.settle(&mut heard);
             self.take_in(heard);
         }
-        if ready.output {
+        if arrivals.is_writable {
             self.flush()?;
         }
         Ok(())
     }
 
-    /// Does what a signal asks for.
-    fn heed(&mut self, asked: Asked) -> io::Result<()> {
-        match asked {
-            Asked::End(status) => self.inputs.push_back(Input::End(status)),
-            Asked::Resize => {
+    fn handle_signal(&mut self, request: SignalRequest) -> io::Result<()> {
+        match request {
+            SignalRequest::End(status) => self.inputs.push_back(Input::End(status)),
+            SignalRequest::Resize => {
                 // What a terminal makes of its cells when it grows or shrinks is its own affair.
                 self.painter.forget();
                 self.inputs.push_back(Input::Redraw);
             }
-            // Who nobody waits for would never go on.
-            Asked::Stop if !Device::can_stop() => {}
-            Asked::Stop => self.inputs.push_back(Input::Stop),
-            Asked::GoOn => {
+            // Without a shell that waits nobody would tell it to go on.
+            SignalRequest::Stop if !has_job_control() => {}
+            SignalRequest::Stop => self.inputs.push_back(Input::Stop),
+            SignalRequest::GoOn => {
                 self.take_over()?;
                 self.inputs.push_back(Input::Redraw);
             }
         }
-        Ok(())
-    }
-
-    /// Reads what was typed.
-    fn listen(&mut self) -> io::Result<()> {
-        let mut bytes = [0; READ_BYTES];
-        let n = self.device.read(&mut bytes)?;
-        if n == 0 {
-            self.hang_up();
-        }
-        let mut heard = VecDeque::new();
-        self.keyboard.feed(&bytes[..n], &mut heard);
-        self.take_in(heard);
         Ok(())
     }
 
@@ -266,7 +244,7 @@ impl Session {
 
 impl Link for Session {
     fn waker(&self) -> Waker {
-        self.alarm.waker()
+        self.inbox.waker()
     }
 
     fn wait(&mut self, due: bool) -> io::Result<()> {
@@ -334,12 +312,12 @@ impl Link for Session {
 
     fn suspend(&mut self) -> bool {
         // The whole job stops, as it would if the terminal had made a signal of the key.
-        Device::can_stop() && kill_current_process_group(Signal::TSTP).is_ok()
+        has_job_control() && stop_job()
     }
 
     fn stop(&mut self) -> io::Result<()> {
         self.give_back();
-        signals::stop()
+        stop_process()
     }
 }
 

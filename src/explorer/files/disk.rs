@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use crate::door::{self, Expected};
 use crate::scene::LARGEST_FILE;
+use crate::system;
 
 /// Whatever is in the place of a scene file.
 const ANY: Expected = Expected {
@@ -80,10 +81,8 @@ fn replace(target: &Path, text: &str) -> io::Result<()> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".rayscope-");
     // A new file gets what the umask leaves of the usual permissions, an old one keeps its own.
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(fs::Permissions::from_mode(0o666));
+    if let Some(usual) = system::new_file_permissions() {
+        builder.permissions(usual);
     }
     let mut file = builder.tempfile_in(folder.unwrap_or(Path::new(".")))?;
     file.write_all(text.as_bytes())?;

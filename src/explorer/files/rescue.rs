@@ -1,7 +1,7 @@
 //! Unsaved work that outlives its terminal: kept in a file when nobody can be asked, and offered
 //! when the same scene is opened again.
 
-use std::fs::{self, DirBuilder};
+use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process;
@@ -13,6 +13,7 @@ use crate::explorer::edit::document::Change;
 use crate::explorer::link::command_line;
 use crate::explorer::mode::{Mode, Question};
 use crate::scene::{Builtin, LARGEST_FILE, Scene, Source};
+use crate::system;
 
 /// A file that was kept: a scene, and a few lines before it.
 const KEPT: Expected = Expected {
@@ -113,11 +114,7 @@ impl Explorer {
 impl Rescue {
     /// Writes a file that nobody else may read, whole or not at all, and over no other.
     fn keep(&self, text: &str) -> io::Result<PathBuf> {
-        let mut builder = DirBuilder::new();
-        builder.recursive(true);
-        #[cfg(unix)]
-        std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
-        builder.create(&self.folder)?;
+        system::create_private_folder(&self.folder)?;
         // A temporary file is its owner's alone from the start.
         let mut file = tempfile::Builder::new()
             .prefix(".rayscope-")
@@ -234,12 +231,7 @@ mod tests {
         let mut lost = opened(&folder, "trio");
         press(&mut lost, "xg");
         let kept = lost.finish().unwrap().expect("a file");
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt;
-            let mode = |p: &Path| fs::metadata(p).unwrap().permissions().mode() & 0o777;
-            assert_eq!([mode(&kept), mode(&folder)], [0o600, 0o700]);
-        }
+        assert!(system::is_private(&kept) && system::is_private(&folder));
 
         let mut other = opened(&folder, "tutorial");
         assert_eq!(other.mode, Mode::Normal);

@@ -3,7 +3,6 @@
 //! The thread gets copies, sends its report through a channel and rings the waker: whoever waits
 //! for input then calls [`Explorer::catch_up`]. Nobody waits for the thread.
 
-use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
@@ -18,31 +17,8 @@ use crate::lab::picture::{NoChart, chart};
 use crate::lab::timing::SelfCheck;
 use crate::lab::{BenchQueue, BenchWait};
 use crate::scene::{Rays, Scene};
+use crate::system::Waker;
 use crate::text;
-
-/// Wakes whoever waits for input, from any thread; nobody, if nobody is set.
-#[derive(Clone, Default)]
-pub struct Waker(Option<Arc<dyn Fn() + Send + Sync>>);
-
-impl Waker {
-    /// Wakes by calling this.
-    pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
-        Self(Some(Arc::new(wake)))
-    }
-
-    /// Wakes.
-    pub fn wake(&self) {
-        if let Some(wake) = &self.0 {
-            wake();
-        }
-    }
-}
-
-impl fmt::Debug for Waker {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Waker")
-    }
-}
 
 /// What was measured, what is being measured, and why there is nothing.
 #[derive(Debug, Default)]
