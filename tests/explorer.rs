@@ -521,6 +521,37 @@ fn saving_never_overwrites_what_was_not_read() {
 }
 
 #[test]
+fn who_saves_and_quits_has_quit_once_it_is_saved() {
+    let mut person = Person::opens("trio", 160, 24);
+    let path = person.file("mine.toml");
+    person.presses("x").commands("save-as mine.toml");
+    fs::write(&path, "somebody else's").unwrap();
+    person.presses("u q s").shows("changed by somebody else");
+    person.presses("esc ctrl-s o").shows("Saved");
+    assert_eq!(person.explorer.ended(), None, "esc gave up quitting");
+    fs::write(&path, "somebody else's").unwrap();
+    person.presses("x q s o");
+    assert_eq!(person.explorer.ended(), Some(0));
+    assert_eq!(Scene::load(&path).unwrap(), *person.explorer.scene());
+
+    // A scene that has no file yet is given a name on the way.
+    let mut person = Person::opens("trio", 160, 24);
+    person.presses("x q s enter");
+    assert_eq!(person.explorer.ended(), Some(0));
+}
+
+#[test]
+fn a_name_that_would_not_open_what_is_saved_is_refused() {
+    let mut person = Person::opens("trio", 160, 24);
+    person.presses("x").commands("save-as far");
+    person.shows("this name opens a built-in scene, expected another, such as ./far");
+    assert!(!person.file("far").exists());
+    person.commands("save-as ./far").shows("Saved");
+    person.commands("open ./far");
+    assert_eq!(person.explorer.scene().bodies.len(), 2);
+}
+
+#[test]
 fn opening_asks_before_changes_are_lost_and_says_what_is_wrong() {
     let mut person = Person::opens("tutorial", 80, 24);
     person

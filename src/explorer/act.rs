@@ -169,11 +169,7 @@ impl Explorer {
                 Err(sentence) => self.warn(sentence),
             },
             Command::Open(name) => self.open(&name),
-            Command::SaveAs(name) => {
-                if let Some(path) = self.reach(&name) {
-                    self.save_as(path);
-                }
-            }
+            Command::SaveAs(name) => self.save_as_named(&name),
             Command::Method(method) => self.options.method = method,
             Command::Style(style) => self.set_style(style),
             Command::View(view) => self.set_view(view),

@@ -99,6 +99,8 @@ pub struct Explorer {
     measuring: Measuring,
     dialing: Dialing,
     ended: Option<u8>,
+    /// Whether the person asked to save and quit: a question that this led to leads on to the end.
+    quits_once_saved: bool,
     /// The bytes of the last frame, and of the largest one.
     sent: Option<[u64; 2]>,
     /// Whether the picture is drawn with few shades, since its bytes go out slowly.
@@ -146,6 +148,7 @@ impl Explorer {
             measuring: Measuring::default(),
             dialing: Dialing::default(),
             ended: None,
+            quits_once_saved: false,
             sent: None,
             coarse: false,
         }

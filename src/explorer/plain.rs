@@ -154,6 +154,7 @@ impl Explorer {
 
     /// Has a line done. What comes back is an answer in itself, or why the line is not done.
     fn hear(&mut self, line: &str) -> Result<Option<String>, String> {
+        self.quits_once_saved &= self.mode != Mode::Normal;
         if self.is_answer(line) {
             return Ok(None);
         }

@@ -1,6 +1,7 @@
-//! Opening a file without waiting for whoever is at its other end.
+//! Files: opened without waiting for whoever is at the other end; what a file has beside its
+//! contents.
 
-use std::fs::{File, OpenOptions};
+use std::fs::{File, Metadata, OpenOptions};
 use std::io;
 use std::path::Path;
 
@@ -34,4 +35,64 @@ pub fn kind_of_special(kind: std::fs::FileType) -> &'static str {
     }
     let _ = kind;
     "no regular file"
+}
+
+/// Whether a file has other names, which would go on to be the old file if it were replaced.
+pub fn has_other_names(there: &Metadata) -> bool {
+    #[cfg(unix)]
+    return std::os::unix::fs::MetadataExt::nlink(there) > 1;
+    #[cfg(not(unix))]
+    {
+        let _ = there;
+        false
+    }
+}
+
+/// Whether a file has attributes beyond its permissions, such as a list of who may do what. Those
+/// that the system gives to each file of its own accord do not count.
+pub fn has_attributes(path: &Path) -> bool {
+    #[cfg(target_os = "linux")]
+    {
+        let mut names = Vec::with_capacity(1 << 12);
+        if rustix::fs::listxattr(path, rustix::buffer::spare_capacity(&mut names)).is_err() {
+            return false;
+        }
+        let mut names = names.split(|&b| b == 0).filter(|name| !name.is_empty());
+        names.any(|name| !name.starts_with(b"security."))
+    }
+    #[cfg(not(target_os = "linux"))]
+    {
+        let _ = path;
+        false
+    }
+}
+
+/// Gives a file the owner and the group of another.
+pub fn give_owner(file: &File, of: &Metadata) -> io::Result<()> {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::{MetadataExt, fchown};
+        let own = file.metadata()?;
+        let other = |mine: u32, wanted: u32| (mine != wanted).then_some(wanted);
+        let (owner, group) = (other(own.uid(), of.uid()), other(own.gid(), of.gid()));
+        if owner.is_some() || group.is_some() {
+            fchown(file, owner, group)?;
+        }
+    }
+    let _ = (file, of);
+    Ok(())
+}
+
+/// Gives each of two files the name of the other, at once; fails where the system can't.
+pub fn exchange(one: &Path, other: &Path) -> io::Result<()> {
+    #[cfg(any(target_os = "linux", target_vendor = "apple"))]
+    {
+        use rustix::fs::{CWD, RenameFlags, renameat_with};
+        Ok(renameat_with(CWD, one, CWD, other, RenameFlags::EXCHANGE)?)
+    }
+    #[cfg(not(any(target_os = "linux", target_vendor = "apple")))]
+    {
+        let _ = (one, other);
+        Err(io::ErrorKind::Unsupported.into())
+    }
 }

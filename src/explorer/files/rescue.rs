@@ -280,7 +280,7 @@ mod tests {
 
         let mut saved = opened(folder, "trio");
         press(&mut saved, "o");
-        saved.save_as(folder.join("saved.txt"));
+        saved.save_as(&folder.join("saved.txt"));
         assert!(!saved.is_changed());
         assert_eq!(files(folder), 1, "the saved file alone");
     }

@@ -1,9 +1,9 @@
 //! Opening and saving, and what is asked before something would be lost.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::explorer::Explorer;
-use crate::explorer::files::disk::{self, Stamp};
+use crate::explorer::files::disk::{self, Over, Stamp, Unsaved};
 use crate::explorer::mode::{Mode, Purpose, Question};
 use crate::scene::{Builtin, Scene, Source};
 
@@ -83,40 +83,53 @@ impl Explorer {
                 let suggestion = self.suggested_file();
                 self.prompt(Purpose::SaveAs, &suggestion);
             }
-            FilePlace::File(stamp) if stamp.is_current() => {
-                let path = stamp.path().to_owned();
-                self.write(&path);
-            }
             FilePlace::File(stamp) => {
-                self.mode = Mode::Ask(Question::Overwrite {
-                    path: stamp.path().to_owned(),
-                    why: "was changed by somebody else since it was read",
-                });
+                let stamp = stamp.clone();
+                self.write(stamp.path(), Over::Known(&stamp));
             }
         }
     }
 
-    pub(crate) fn save_as(&mut self, path: PathBuf) {
+    /// Saves under a name that opens what was saved.
+    pub(crate) fn save_as_named(&mut self, name: &str) {
+        if Builtin::by_name(name).is_some() {
+            self.warn(format!(
+                "{name}: this name opens a built-in scene, expected another, such as ./{name}"
+            ));
+        } else if let Some(path) = self.reach(name) {
+            self.save_as(&path);
+        }
+    }
+
+    pub(crate) fn save_as(&mut self, path: &Path) {
         let own = matches!(&self.place, FilePlace::File(stamp) if stamp.path() == path);
         if own {
             self.save();
-        } else if path.is_file() {
-            let why = "exists already";
-            self.mode = Mode::Ask(Question::Overwrite { path, why });
         } else {
-            self.write(&path);
+            self.write(path, Over::Nothing);
         }
     }
 
-    pub(crate) fn write(&mut self, path: &Path) {
-        match disk::save(path, &self.scene().to_toml()) {
+    pub(crate) fn write(&mut self, path: &Path, over: Over<'_>) {
+        match disk::save(path, &self.scene().to_toml(), over) {
             Ok(stamp) => {
                 self.place = FilePlace::File(stamp);
                 self.document.mark_saved();
                 self.saved_as(path);
                 self.say(format!("Saved {}.", path.display()));
+                if std::mem::take(&mut self.quits_once_saved) {
+                    self.ended = Some(0);
+                }
             }
-            Err(sentence) => self.warn(sentence),
+            Err(Unsaved::Occupied) => {
+                let why = match over {
+                    Over::Known(_) => "was changed by somebody else since it was read",
+                    Over::Nothing | Over::Anything => "exists already",
+                };
+                let path = path.to_owned();
+                self.mode = Mode::Ask(Question::Overwrite { path, why });
+            }
+            Err(Unsaved::Failed(sentence)) => self.warn(sentence),
         }
     }
 }

@@ -11,6 +11,7 @@ use crate::explorer::Explorer;
 use crate::explorer::action::Action;
 use crate::explorer::command::{self, Command};
 use crate::explorer::edit::field::{Field, parse_number};
+use crate::explorer::files::disk::Over;
 use crate::explorer::files::rescue;
 use crate::explorer::files::workplace::Workplace;
 use crate::explorer::key::Key;
@@ -139,6 +140,7 @@ impl Explorer {
         }
         match std::mem::replace(&mut self.mode, Mode::Normal) {
             Mode::Normal => {
+                self.quits_once_saved = false;
                 if self.prediction.on || self.board {
                     self.refresh();
                 }
@@ -292,10 +294,8 @@ impl Explorer {
     pub(crate) fn answer(&mut self, key: Key, question: Question) {
         match question {
             Question::Quit if key.is("s") => {
+                self.quits_once_saved = true;
                 self.save();
-                if !self.is_changed() {
-                    self.ended = Some(0);
-                }
             }
             // Another key than the one that asked: it may be held down.
             Question::Quit if key.is("D") => self.ended = Some(0),
@@ -312,7 +312,9 @@ impl Explorer {
             }
             Question::Tour if key.is("t") => self.visit_unsaved(),
             Question::Tour if key.is("s") => self.save(),
-            Question::Overwrite { path, .. } if key.is("o") => self.write(&path),
+            Question::Overwrite { path, .. } if key.is("o") => {
+                self.write(&path, Over::Anything);
+            }
             _ if key.is("esc") || key.is("n") => self.say("Nothing was changed."),
             question => self.mode = Mode::Ask(question),
         }
