@@ -245,3 +245,126 @@ fn the_home_folder_is_a_tilde_and_a_missing_folder_a_sentence() {
         run.out
     );
 }
+
+/// What a terminal could be steered with.
+fn steers(text: &str) -> Option<char> {
+    text.chars().find(|c| c.is_control() && *c != '\n')
+}
+
+#[test]
+fn nothing_from_a_file_or_a_flag_steers_the_terminal() {
+    let home = Home::new();
+    let hostile = "\u{1b}]0;x\u{7}\u{9b}31m";
+    let page = "[[page]]\nscene = \"seed\"\ntext = \"t\"\n";
+    let escaped = "\\u001b]0;pwned\\u0007";
+    home.file("title.toml", format!("title = \"{escaped}\"\n{page}"));
+    home.file(
+        "text.toml",
+        format!(
+            "title = \"t\"\n{}",
+            page.replace("\"t\"", &format!("\"{escaped}\""))
+        ),
+    );
+    home.file(
+        "try.toml",
+        format!("title = \"t\"\n{page}try = \"{escaped}\"\n"),
+    );
+    home.file(
+        "method.toml",
+        format!("title = \"t\"\n{page}method = \"{escaped}\"\n"),
+    );
+    home.file(
+        "key.toml",
+        format!("title = \"t\"\n{page}\"{escaped}\" = 1\n"),
+    );
+    fs::create_dir(home.0.path().join("tour")).unwrap();
+    home.file(
+        format!("tour/{hostile}.toml"),
+        format!("title = \"t\"\n{page}"),
+    );
+    home.file(
+        "rows.csv",
+        format!("{ROWS}\"{hostile}\",2,3,4,5,6,7,8,9,10\n"),
+    );
+    home.file("head.csv", format!("{hostile},{ROWS}"));
+    home.file(
+        "claims.csv",
+        format!(
+            "{CLAIMS}0,0,0,0,0,1,0,0,9,1,\"{hostile}\",,\n0,0,0,0,0,1,0,0,9,1,hit,\"{hostile}\",\n"
+        ),
+    );
+    home.file("name.toml", format!("name = \"{escaped}\"\n{CAMERA}"));
+    home.file(format!("{hostile}.toml"), "nothing");
+    for line in [
+        "tour title.toml --list",
+        "tour text.toml --list",
+        "tour try.toml --list",
+        "tour method.toml --list",
+        "tour key.toml --list",
+        "tour tour --list",
+        "solve --batch rows.csv",
+        "solve --batch HOSTILE",
+        "solve --ray=HOSTILE --sphere=0,0,0,1",
+        "grade rows.csv",
+        "grade claims.csv",
+        "print name.toml",
+        "print HOSTILE.toml",
+        "print HOSTILE",
+        "print seed --method HOSTILE",
+        "worksheet HOSTILE.toml",
+        "tour HOSTILE",
+        "HOSTILE.toml --plain",
+        "--HOSTILE",
+    ] {
+        let words: Vec<_> = line
+            .split(' ')
+            .map(|w| w.replace("HOSTILE", hostile))
+            .collect();
+        let run = home.run(&words, b"");
+        // What solve passes through untouched is for other programs.
+        let shown = if line.starts_with("solve --batch rows") {
+            ""
+        } else {
+            &run.out
+        };
+        assert_eq!(steers(shown), None, "{line}: {shown:?}");
+        assert_eq!(steers(&run.err), None, "{line}: {:?}", run.err);
+    }
+    let run = home.run(&["tour", "title.toml", "--list"], b"");
+    assert_eq!(
+        run.err,
+        "rayscope: title.toml:1:9: title: found the control character U+001B, expected text without control characters\n"
+    );
+    let lines = format!("save-as {hostile}2.toml\nopen {hostile}\n{hostile}\nset {hostile} 1\n");
+    let run = home.run(&["trio", "--plain"], lines.as_bytes());
+    assert_eq!(steers(&run.out), None, "{:?}", run.out);
+}
+
+#[test]
+fn of_a_thousand_bad_rows_a_hundred_are_explained_and_the_rest_counted() {
+    let home = Home::new();
+    for (command, head) in [("solve --batch -", ROWS), ("grade -", CLAIMS)] {
+        let words: Vec<_> = command.split(' ').collect();
+        let run = home.run(&words, format!("{head}{}", "x\n".repeat(1000)).as_bytes());
+        assert_eq!(run.status, Some(1));
+        let lines: Vec<_> = run.err.lines().collect();
+        assert_eq!(lines.len(), 101, "{command}");
+        assert!(
+            lines[99].contains(": line 102, column oy: nothing there")
+                || lines[99].contains(": line 102, column ox: `x`"),
+            "{}",
+            lines[99]
+        );
+        assert_eq!(
+            lines[100],
+            "rayscope: standard input: 900 more rows are invalid"
+        );
+    }
+    let one = format!("{ROWS}{}", "x\n".repeat(101));
+    let run = home.run(&["solve", "--batch", "-"], one.as_bytes());
+    assert!(
+        run.err.ends_with(": 1 more row is invalid\n"),
+        "{}",
+        run.err
+    );
+}

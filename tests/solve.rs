@@ -101,7 +101,7 @@ fn batch_names_what_is_wrong_with_a_row_and_answers_the_others() {
             &format!("0,0,0,1,0,0,{},0,0,1", "0".repeat(100_000)),
             "line 25, column cx: the line is longer",
         ),
-        ("0,0,0,1,0,0,0,0,0\r,1\r0", "line 27, column r: `1\r0`"),
+        ("0,0,0,1,0,0,0,0,0\r,1\r0", "line 27, column r: `1\\r0`"),
     ];
     let good = "-3,0,0,1,0,0,0,0,0,1";
     let mut input = HEADER.to_owned();

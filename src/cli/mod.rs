@@ -20,15 +20,17 @@ mod tour;
 mod variables;
 mod worksheet;
 
+use std::borrow::Cow;
 use std::fmt;
+use std::io::{self, Write as _};
 use std::process::ExitCode;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
-use crate::text::{by_name, former_names, read};
+use crate::text::{by_name, former_names, printable, read};
 use failure::{DONE, Failure, Outcome};
-use output::{complain, save, unwritable, write_out};
+use output::{complain, save, unwritable, write_out, write_picture};
 
 /// A terminal explorer for ray–sphere intersection.
 #[derive(Debug, Parser)]
@@ -92,9 +94,22 @@ fn arguments() -> Result<Option<Arguments>, Failure> {
         Ok(arguments) => Ok(Some(arguments)),
         Err(error) => match variables::at_fault(&error, &command) {
             Some(sentence) => Err(Failure::misused(sentence)),
-            None if error.use_stderr() => error.exit(),
+            None if error.use_stderr() => exit(&error),
             None => error.print().or_else(|e| unwritable(&e)).map(|()| None),
         },
+    }
+}
+
+/// Ends the program where it was called wrongly; what is wrong may hold what steers a terminal.
+fn exit(error: &clap::Error) -> ! {
+    let plain = error.render().to_string();
+    match printable(&plain) {
+        Cow::Borrowed(_) => error.exit(),
+        Cow::Owned(shown) => {
+            // If nobody can read it, nobody is missing it.
+            let _ = io::stderr().write_all(shown.as_bytes());
+            std::process::exit(error.exit_code())
+        }
     }
 }
 

@@ -6,9 +6,15 @@ use std::path::Path;
 
 use super::failure::{DONE, Failure, Outcome};
 use crate::door::shown;
+use crate::text::{printable, printable_line};
 
-/// Writes a report to standard output.
+/// Writes a report to standard output, with nothing from outside in it that steers a terminal.
 pub(super) fn write_out(text: &str) -> Outcome {
+    write_picture(&printable(text))
+}
+
+/// Writes a picture, whose colours are escape sequences, to standard output.
+pub(super) fn write_picture(text: &str) -> Outcome {
     let mut out = io::stdout().lock();
     let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
     written.or_else(|error| unwritable(&error))?;
@@ -34,7 +40,8 @@ pub(super) fn save(path: Option<&Path>, contents: impl FnOnce() -> String) -> Re
 
 /// Says a sentence on standard error. If nobody can read it, nobody is missing it.
 pub(super) fn complain(sentence: impl fmt::Display) {
-    let _ = writeln!(io::stderr(), "rayscope: {sentence}");
+    let sentence = sentence.to_string();
+    let _ = writeln!(io::stderr(), "rayscope: {}", printable_line(&sentence));
 }
 
 /// Complaints about the rows of a file: the first are said, the others counted.

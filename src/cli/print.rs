@@ -8,7 +8,7 @@ use clap::Args;
 use crossterm::terminal::window_size;
 
 use super::appearance::{Color, default_style};
-use super::{Failure, Outcome, aspect, choice, write_out};
+use super::{Failure, Outcome, aspect, choice, write_out, write_picture};
 use crate::explain::{self, Digits, Drawn, Reading};
 use crate::method::Method;
 use crate::render::{
@@ -58,7 +58,11 @@ pub(super) struct Print {
 
 /// Draws the scene, or reads one pixel of it, and ends with the exit status.
 pub(super) fn run(arguments: &Print) -> Outcome {
-    write_out(&text(arguments)?)
+    let text = text(arguments)?;
+    match arguments.pixel {
+        None => write_picture(&text),
+        Some(_) => write_out(&text),
+    }
 }
 
 /// What is asked for.

@@ -4,6 +4,7 @@ use crate::lab::{CaseForm, Dial};
 use crate::method::Method;
 use crate::render::{ColorDepth, Style, View};
 use crate::scene::Builtin;
+use crate::text::nearest;
 
 use crate::explorer::action::Action;
 use crate::explorer::draw::theme::Palette;
@@ -175,7 +176,7 @@ impl Command {
 
 /// Why a line that starts with that word is no command.
 pub fn unknown(name: &str) -> String {
-    let meant = nearest(name).map_or(String::new(), |n| format!(", {n} is"));
+    let meant = nearest(name, names()).map_or(String::new(), |n| format!(", {n} is"));
     format!("“{name}” is no command{meant}; tab lists them")
 }
 
@@ -268,20 +269,6 @@ fn names() -> Vec<&'static str> {
     names.sort_unstable();
     names.dedup();
     names
-}
-
-/// The command that was probably meant: the one that shares the longest beginning.
-fn nearest(name: &str) -> Option<&'static str> {
-    let shared = |n: &str| {
-        n.bytes()
-            .zip(name.bytes())
-            .take_while(|(a, b)| a == b)
-            .count()
-    };
-    names()
-        .into_iter()
-        .max_by_key(|n| shared(n))
-        .filter(|n| shared(n) >= 2)
 }
 
 /// All lines that the line typed so far could become, in order.

@@ -15,6 +15,7 @@ use crate::explorer::panel::Panel;
 use crate::explorer::{Explorer, Request};
 use crate::geometry::Decimal;
 use crate::method::{Class, Precision};
+use crate::text::printable;
 
 /// What is said to a line.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -132,11 +133,7 @@ impl Explorer {
 
     /// What is said, in the characters there are, and none that moves a cursor.
     fn said(&self, text: &str, refused: bool) -> Reply {
-        let printable = |c: &char| *c == '\n' || !c.is_control();
-        let written = |text: &str| {
-            let spelt = self.options.glyphs.spell(text);
-            spelt.chars().filter(printable).collect()
-        };
+        let written = |text: &str| printable(&self.options.glyphs.spell(text)).into_owned();
         let question = match &self.mode {
             Mode::Ask(question) => Some(written(&(question.text() + "\n"))),
             _ => None,

@@ -18,6 +18,7 @@ use super::value::{self, Number, Refused};
 use super::{Aim, Body, Camera, Light, Probe, Projection, Scene, Size};
 use crate::door::{self, Expected, FileError, TextPosition};
 use crate::geometry::Sphere;
+use crate::text::nearest;
 
 /// The largest scene file that is read, in bytes; a million spheres need about a third of it.
 pub const LARGEST_FILE: u64 = 256 << 20;
@@ -182,7 +183,7 @@ impl<'a, 't> Section<'a, 't> {
             .min_by_key(|key| key.span().start);
         let Some(key) = unknown else { return Ok(()) };
         let word = key.get_ref().as_ref();
-        let expected = match value::nearest(word, known.iter().copied()) {
+        let expected = match nearest(word, known.iter().copied()) {
             Some(meant) => format!("perhaps {meant}"),
             None => format!("one of the keys {}", known.join(", ")),
         };

@@ -3,9 +3,9 @@
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
-use super::value::nearest;
 use super::{Builtin, Scene};
 use crate::door::FileError;
+use crate::text::nearest;
 
 /// Where a scene came from.
 #[derive(Debug, Clone, PartialEq, Eq)]

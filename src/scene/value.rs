@@ -141,11 +141,23 @@ pub fn line(text: &str) -> Result<&str, Refused> {
     match text.chars().find(|c| c.is_control()) {
         None => Ok(text),
         Some('\n' | '\r') => Err(Refused::new("a line break", "text in one line")),
-        Some(c) => Err(Refused::new(
-            format!("the control character U+{:04X}", u32::from(c)),
-            "text without control characters",
-        )),
+        Some(c) => Err(control(c)),
     }
+}
+
+/// Reads text of several lines, by the same rule for each.
+pub fn prose(text: &str) -> Result<&str, Refused> {
+    match text.chars().find(|&c| c.is_control() && !c.is_whitespace()) {
+        None => Ok(text),
+        Some(c) => Err(control(c)),
+    }
+}
+
+fn control(c: char) -> Refused {
+    Refused::new(
+        format!("the control character U+{:04X}", u32::from(c)),
+        "text without control characters",
+    )
 }
 
 /// Text in quotation marks, shortened, with nothing in it that a terminal would act on.
@@ -160,17 +172,6 @@ pub(super) fn shortened(text: &str) -> String {
         None => text.to_owned(),
         Some((end, _)) => format!("{}…", &text[..end]),
     }
-}
-
-/// The candidate that a misspelt word most likely meant; none if all are far from it.
-pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    const ALIKE: f64 = 0.7;
-    candidates
-        .into_iter()
-        .map(|candidate| (strsim::jaro_winkler(word, candidate), candidate))
-        .filter(|(likeness, _)| *likeness >= ALIKE)
-        .max_by(|(a, _), (b, _)| a.total_cmp(b))
-        .map(|(_, candidate)| candidate)
 }
 
 #[cfg(test)]
@@ -273,19 +274,17 @@ mod tests {
     }
 
     #[test]
+    fn prose_has_line_breaks_and_nothing_else_that_a_terminal_acts_on() {
+        assert_eq!(prose("one\r\n\ttwo\n"), Ok("one\r\n\ttwo\n"));
+        assert!(prose("a\u{9b}31m").is_err() && prose("\u{1b}[5n").is_err());
+    }
+
+    #[test]
     fn a_line_has_nothing_that_a_terminal_acts_on() {
         assert_eq!(line("−B ± √Δ"), Ok("−B ± √Δ"));
         assert_eq!(
             line("\u{1b}[2J").unwrap_err().to_string(),
             "found the control character U+001B, expected text without control characters"
         );
-    }
-
-    #[test]
-    fn a_misspelt_word_finds_its_neighbour_and_nonsense_none() {
-        let words = ["center", "radius", "color"];
-        assert_eq!(nearest("colour", words), Some("color"));
-        assert_eq!(nearest("raduis", words), Some("radius"));
-        assert_eq!(nearest("xyz", words), None);
     }
 }

@@ -1,7 +1,7 @@
 //! `solve --batch`: CSV in, the same rows with the answers of one method out, one row at a time.
 
 use std::cell::RefCell;
-use std::io::{self, BufReader, BufWriter, Read, Write};
+use std::io::{self, BufReader, BufWriter, IsTerminal as _, Read, Write};
 use std::path::Path;
 
 use super::super::output::Complaints;
@@ -12,6 +12,7 @@ use crate::geometry::{Ray, Sphere};
 use crate::method::format::{self, Shortest};
 use crate::method::{Class, Method, Solution};
 use crate::text::Glyphs;
+use crate::text::printable;
 
 /// Rows are answered one by one, so that there may be any number of them.
 const ROWS: Expected = Expected {
@@ -94,6 +95,17 @@ fn answer(
             "{path}: line {line}, column {name}: an answer has this name; rename the column"
         ))));
     }
+    let is_watched = io::stdout().is_terminal();
+    let write = |text: &[u8]| {
+        let mut output = output.borrow_mut();
+        let written = if is_watched {
+            let text = String::from_utf8_lossy(text).replace("\r\n", "\n");
+            output.write_all(printable(&text).as_bytes())
+        } else {
+            output.write_all(text)
+        };
+        written.map_err(Stop::Unwritten)
+    };
     let mut text = Vec::new();
     file.columns.copy(&row, &mut text);
     for name in OUTPUTS {
@@ -101,10 +113,7 @@ fn answer(
         text.extend_from_slice(name.as_bytes());
     }
     end(&row, &mut text);
-    output
-        .borrow_mut()
-        .write_all(&text)
-        .map_err(Stop::Unwritten)?;
+    write(&text)?;
 
     let mut complaints = Complaints::about(path);
     while file.read(&mut row)? {
@@ -124,10 +133,7 @@ fn answer(
             }
         }
         end(&row, &mut text);
-        output
-            .borrow_mut()
-            .write_all(&text)
-            .map_err(Stop::Unwritten)?;
+        write(&text)?;
     }
     if let Some(error) = failed.take() {
         return Err(Stop::Unwritten(error));

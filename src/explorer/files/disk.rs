@@ -9,7 +9,7 @@ use tempfile::NamedTempFile;
 
 use crate::door::{self, Expected};
 use crate::scene::LARGEST_FILE;
-use crate::system::{file as kind, new_file_permissions};
+use crate::system::{file as filesystem, new_file_permissions};
 
 /// Whatever is in the place of a scene file.
 const ANY: Expected = Expected {
@@ -191,7 +191,7 @@ fn successor(
     there: &Metadata,
     bytes: &[u8],
 ) -> Result<Option<NamedTempFile>, Unsaved> {
-    if kind::has_other_names(there) || kind::has_attributes(target) {
+    if filesystem::has_other_names(there) || filesystem::has_attributes(target) {
         return Ok(None);
     }
     let file = match builder().tempfile_in(folder_of(target)) {
@@ -199,7 +199,7 @@ fn successor(
         Err(error) if error.kind() == io::ErrorKind::PermissionDenied => return Ok(None),
         file => filled(file?, bytes)?,
     };
-    if kind::give_owner(file.as_file(), there).is_err() {
+    if filesystem::give_owner(file.as_file(), there).is_err() {
         return Ok(None);
     }
     file.as_file().set_permissions(there.permissions())?;
@@ -211,11 +211,11 @@ fn successor(
 /// of, all stays as it is.
 fn replace(file: NamedTempFile, target: &Path, over: Over<'_>) -> Result<(), Unsaved> {
     let is_allowed = |path| ANY.bytes(path).is_ok_and(|there| over.allows(&there));
-    match kind::exchange(file.path(), target) {
+    match filesystem::exchange(file.path(), target) {
         // Both are there under each other's names: whatever was there can be looked at in peace.
         Ok(()) if is_allowed(file.path()) => Ok(()),
         Ok(()) => {
-            kind::exchange(file.path(), target)?;
+            filesystem::exchange(file.path(), target)?;
             Err(Unsaved::Occupied)
         }
         Err(_) if is_allowed(target) => match file.persist(target) {
@@ -289,7 +289,7 @@ mod tests {
         names
     }
 
-    fn is_occupied(saved: Result<Stamp, Unsaved>) -> bool {
+    fn is_occupied(saved: &Result<Stamp, Unsaved>) -> bool {
         matches!(saved, Err(Unsaved::Occupied))
     }
 
@@ -300,8 +300,8 @@ mod tests {
         let one = save(&path, "one", Over::Nothing).unwrap();
         let two = save(&path, "two", Over::Known(&one)).unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"two");
-        assert!(is_occupied(save(&path, "three", Over::Known(&one))));
-        assert!(is_occupied(save(&path, "three", Over::Nothing)));
+        assert!(is_occupied(&save(&path, "three", Over::Known(&one))));
+        assert!(is_occupied(&save(&path, "three", Over::Nothing)));
         assert_eq!(fs::read(&path).unwrap(), b"two");
         fs::remove_file(&path).unwrap();
         save(&path, "four", Over::Known(&two)).unwrap();
@@ -402,7 +402,7 @@ mod tests {
                 assert_eq!(fs::read_to_string(&other).unwrap(), text);
             }
             fs::write(&other, "somebody else's").unwrap();
-            assert!(is_occupied(save(&path, "two", Over::Known(&known))));
+            assert!(is_occupied(&save(&path, "two", Over::Known(&known))));
             assert_eq!(fs::metadata(&path).unwrap().nlink(), 2);
         }
 

@@ -20,7 +20,7 @@ use crate::explorer::edit::field;
 use crate::explorer::panel::Panel;
 use crate::method::Method;
 use crate::render::{Style, View};
-use crate::scene::{Builtin, Scene, Size, Source};
+use crate::scene::{Builtin, Scene, Size, Source, value};
 
 /// A walk through some pages, in their order.
 #[derive(Debug, Clone, PartialEq)]
@@ -176,6 +176,8 @@ impl Chapter {
         };
         let written: ChapterFile = toml::from_str(text)
             .map_err(|e| located(e.span(), e.message().trim_end().to_owned()))?;
+        let title = value::line(written.title.get_ref())
+            .map_err(|refused| located(Some(written.title.span()), format!("title: {refused}")))?;
         let mut pages: Vec<Page> = Vec::new();
         for page in written.page {
             let before = pages.last().map(|p| &p.state);
@@ -192,7 +194,7 @@ impl Chapter {
         Ok(Self {
             name: name_of(file),
             file: None,
-            title: written.title,
+            title: title.to_owned(),
             pages,
         })
     }
@@ -213,7 +215,7 @@ fn name_of(file: &str) -> String {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ChapterFile {
-    title: String,
+    title: Spanned<String>,
     #[serde(default)]
     page: Vec<PageFile>,
 }
@@ -224,7 +226,7 @@ struct ChapterFile {
 #[serde(deny_unknown_fields)]
 struct PageFile {
     text: Spanned<String>,
-    r#try: Option<String>,
+    r#try: Option<Spanned<String>>,
     scene: Option<Spanned<String>>,
     /// Numbers of the scene, as after `:set`.
     #[serde(default)]
@@ -264,16 +266,17 @@ impl PageFault {
 impl PageFile {
     fn into_page(self, before: Option<&State>, folder: Option<&Path>) -> Result<Page, PageFault> {
         let state = self.state(before, folder)?;
-        let text = paragraphs(self.text.get_ref());
+        let text = prose(&self.text, "text")?;
         if text.is_empty() {
             return Err(PageFault::at(
                 &self.text,
                 "text: found nothing, expected a sentence",
             ));
         }
+        let attempt = self.r#try.as_ref().map(|t| prose(t, "try")).transpose()?;
         Ok(Page {
             text,
-            attempt: self.r#try.map(|t| paragraphs(&t).join(" ")),
+            attempt: attempt.map(|paragraphs| paragraphs.join(" ")),
             state,
         })
     }
@@ -444,6 +447,14 @@ fn named<T: Copy>(
         choice(word.get_ref(), what, all, name).map_err(|problem| PageFault::at(word, problem))
     })
     .transpose()
+}
+
+/// The paragraphs of what a page says, in which nothing may steer a terminal.
+fn prose(text: &Spanned<String>, key: &str) -> Result<Vec<String>, PageFault> {
+    match value::prose(text.get_ref()) {
+        Ok(prose) => Ok(paragraphs(prose)),
+        Err(refused) => Err(PageFault::at(text, format!("{key}: {refused}"))),
+    }
 }
 
 /// The paragraphs of a text, each in one line; blank lines part them.
