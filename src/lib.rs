@@ -5,6 +5,7 @@
 //!
 //! * [`system`]: what differs from one operating system to the next
 //! * [`text`]: text as people, programs and files write it: characters, numbers, lines, names
+//! * [`report`]: what a run found, in sentences and tables, in each format
 //! * [`door`]: files from outside, opened and read safely
 //! * [`geometry`]: rays and spheres, plain data, checked where it comes in
 //! * [`method`]: the quadratic, and the ways to evaluate it
@@ -24,6 +25,7 @@ pub mod geometry;
 pub mod lab;
 pub mod method;
 pub mod render;
+pub mod report;
 pub mod scene;
 pub mod system;
 pub mod terminal;

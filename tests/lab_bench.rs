@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::process::{Command, Output};
 
-use rayscope::lab::bench::{self, Plan, Sample};
+use rayscope::lab::bench::{self, BenchPlan, Sample};
 use rayscope::lab::timing::{Clock, Schedule, SystemClock};
 use rayscope::lab::{BenchQueue, Census, Errors, Family, Reference};
 use rayscope::method::Method;
@@ -229,8 +229,8 @@ impl Clock for Frozen {
     }
 }
 
-fn plan() -> Plan<'static> {
-    Plan {
+fn plan() -> BenchPlan<'static> {
+    BenchPlan {
         methods: &Method::ALL,
         schedule: Schedule { rounds: 3, seed: 1 },
     }
@@ -248,8 +248,12 @@ fn a_broken_timer_is_said_and_leaves_the_errors_as_they_are() {
     let honest = bench::run(plan(), &samples(), 1, &SystemClock::new(), |_, _| true);
     assert_eq!(report.checksum(), honest.checksum());
     let machine = rayscope::lab::Machine::detect();
-    assert!(bench::table(&report, &machine, false).contains("times_trusted: false"));
-    let json: Value = serde_json::from_str(&bench::json(&report, &machine).unwrap()).unwrap();
+    assert!(
+        bench::text(&report, &machine, false)
+            .text()
+            .contains("times_trusted: false")
+    );
+    let json: Value = serde_json::from_str(&bench::json(&report, &machine)).unwrap();
     assert_eq!(json["times_trusted"], false);
 }
 
@@ -268,7 +272,7 @@ fn a_run_that_is_ended_early_reports_what_is_complete() {
             .iter()
             .all(|c| c.rows.len() == Method::ALL.len())
     );
-    let text = bench::table(&report, &rayscope::lab::Machine::detect(), false);
+    let text = bench::text(&report, &rayscope::lab::Machine::detect(), false).text();
     assert!(text.contains("Interrupted"));
 }
 

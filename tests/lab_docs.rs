@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 use std::fs;
 
-use rayscope::lab::bench::{self, Chapter, Plan, Row, Sample};
+use rayscope::lab::bench::{self, BenchPlan, Benchmark, Chapter, Row, Sample};
 use rayscope::lab::stress;
 use rayscope::lab::timing::{Clock, Schedule};
 use rayscope::lab::{Dial, Family, Machine, plot};
@@ -43,8 +43,8 @@ impl Clock for NoClock {
 }
 
 /// What `rayscope bench --quick` asks.
-fn quick_bench() -> bench::Report {
-    let plan = Plan {
+fn quick_bench() -> Benchmark {
+    let plan = BenchPlan {
         methods: &Method::ALL,
         schedule: Schedule { rounds: 1, seed: 1 },
     };
@@ -54,8 +54,8 @@ fn quick_bench() -> bench::Report {
 }
 
 /// What `rayscope stress --quick` asks.
-fn quick_stress() -> stress::Report {
-    let plan = stress::Plan {
+fn quick_stress() -> stress::Stability {
+    let plan = stress::StressPlan {
         methods: Method::ALL.into(),
         dials: Dial::ALL.iter().collect(),
         seed: 1,
@@ -69,7 +69,7 @@ fn details(chapter: &Chapter) -> String {
         "\n### {}\n\n{}\n\n{}",
         chapter.name,
         chapter.about,
-        bench::error_table(chapter)
+        bench::error_table(chapter).markdown()
     )
 }
 
@@ -77,7 +77,7 @@ fn details(chapter: &Chapter) -> String {
 fn the_errors_in_the_docs_are_those_of_the_code_and_their_chart_is_well_formed() {
     let report = quick_bench();
     let path = "docs/accuracy.md";
-    assert_documented(path, "overview", &bench::error_overview(&report));
+    assert_documented(path, "overview", &bench::error_overview(&report).markdown());
     let all: String = report.chapters.iter().map(details).collect();
     assert_documented(path, "errors", &format!("{all}\n"));
 
@@ -95,12 +95,12 @@ fn the_errors_in_the_docs_are_those_of_the_code_and_their_chart_is_well_formed()
 fn the_sweeps_in_the_docs_are_those_of_the_code_and_their_chart_is_well_formed() {
     let report = quick_stress();
     let path = "docs/stability.md";
-    assert_documented(path, "summary", &stress::summary_table(&report));
-    assert_documented(path, "checks", &stress::check_table(&report));
+    assert_documented(path, "summary", &stress::summary_table(&report).markdown());
+    assert_documented(path, "checks", &stress::check_table(&report).markdown());
     let mut all = String::new();
     for sweep in &report.sweeps {
         let _ = write!(all, "\n### {}\n\n{}\n\n", sweep.dial.name, sweep.dial.about);
-        all += &stress::sweep_table(&report, sweep);
+        all += &stress::sweep_table(&report, sweep).markdown();
     }
     assert_documented(path, "sweeps", &format!("{all}\n"));
 

@@ -4,13 +4,13 @@
 use std::process::{Command, Output};
 use std::sync::LazyLock;
 
-use rayscope::lab::stress::{self, Plan, Report, bits_lost, measure};
+use rayscope::lab::stress::{self, Stability, StressPlan, bits_lost, measure};
 use rayscope::lab::{Dial, Reference};
 use rayscope::method::{Class, Method, Solution};
 use serde_json::Value;
 
-fn plan(dials: &[&str], rays: usize) -> Plan {
-    Plan {
+fn plan(dials: &[&str], rays: usize) -> StressPlan {
+    StressPlan {
         methods: Method::ALL.into(),
         dials: dials
             .iter()
@@ -22,7 +22,7 @@ fn plan(dials: &[&str], rays: usize) -> Plan {
 }
 
 /// All dials, few rays; made once.
-static ALL_DIALS: LazyLock<Report> = LazyLock::new(|| {
+static ALL_DIALS: LazyLock<Stability> = LazyLock::new(|| {
     let names: Vec<&str> = Dial::ALL.iter().map(|dial| dial.name).collect();
     stress::run(&plan(&names, 64), |_, _| true)
 });
@@ -88,7 +88,7 @@ fn a_method_that_is_broken_on_purpose_is_caught() {
 #[test]
 fn the_methods_break_down_where_theory_says_they_should() {
     let report = &*ALL_DIALS;
-    let json: Value = serde_json::from_str(&stress::json(report).unwrap()).unwrap();
+    let json: Value = serde_json::from_str(&stress::json(report)).unwrap();
     let breakdowns = json["breakdowns"].as_array().unwrap();
     assert_eq!(breakdowns.len(), Dial::ALL.len() * Method::ALL.len());
     for place in breakdowns {
@@ -119,8 +119,8 @@ fn both_promises_are_kept_and_a_broken_one_is_said() {
     report.kept[0].broken = 1;
     report.kept[0].first = Dial::ALL[0].sample(1, 1, 1).pop();
     assert!(!report.promises_kept());
-    assert!(stress::table(&report).contains("promises BROKEN"));
-    let json: Value = serde_json::from_str(&stress::json(&report).unwrap()).unwrap();
+    assert!(stress::text(&report).text().contains("promises BROKEN"));
+    let json: Value = serde_json::from_str(&stress::json(&report)).unwrap();
     assert_eq!(json["promises_kept"], false);
     assert_eq!(json["promises"][0]["first"].as_array().unwrap().len(), 10);
 }
@@ -175,7 +175,7 @@ fn a_run_that_is_ended_early_reports_what_is_complete() {
     assert!(!report.complete);
     assert_eq!(report.sweeps.len(), 1);
     assert!(report.checks.is_empty());
-    assert!(stress::table(&report).contains("Interrupted"));
+    assert!(stress::text(&report).text().contains("Interrupted"));
 }
 
 fn rayscope(arguments: &[&str]) -> Output {
@@ -187,7 +187,7 @@ fn rayscope(arguments: &[&str]) -> Output {
 
 #[test]
 fn the_table_fits_eighty_columns() {
-    for line in stress::table(&ALL_DIALS).lines() {
+    for line in stress::text(&ALL_DIALS).text().lines() {
         assert!(line.chars().count() <= 80, "{line}");
     }
 }
@@ -235,7 +235,7 @@ fn csv_and_json_have_the_documented_fields_and_the_exit_status_is_good() {
 #[test]
 fn the_same_seed_gives_the_same_answers() {
     let checksum = |seed| {
-        let plan = Plan {
+        let plan = StressPlan {
             seed,
             ..plan(&["short"], 8)
         };

@@ -9,20 +9,22 @@ use clap::Args;
 use super::failure::{DONE, INVALID};
 use super::plan::buffer_of;
 use super::progress::{INTERRUPTED, Progress};
-use super::sweep::{Format, Sweep};
+use super::sweep::SweepArgs;
 use super::{Failure, Outcome, complain, save, whole, write_out};
-use crate::lab::bench::{self, MOST_TIMED, Plan, Report, Sample};
+use crate::lab::bench::{self, BenchPlan, Benchmark, MOST_TIMED, Sample};
+use crate::lab::frames::{self, FrameSchedule};
 use crate::lab::timing::{Schedule, SelfCheck, SystemClock};
-use crate::lab::{BenchLock, BenchQueue, Family, Machine, frames, plot};
+use crate::lab::{BenchLock, BenchQueue, Family, Machine, plot};
 use crate::render::{CELL_ASPECT, ColorDepth, Image, Style, fit};
+use crate::report::Format;
 use crate::scene::{Rays, Scene};
 use crate::terminal::{Limits, Painter};
 
 /// Measure the methods: wrong answers, errors in ulp, nanoseconds
 #[derive(Debug, Args)]
-pub(super) struct Bench {
+pub(super) struct BenchArgs {
     #[command(flatten)]
-    sweep: Sweep,
+    sweep: SweepArgs,
 
     /// Only these families of rays, separated by commas
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = family())]
@@ -60,7 +62,7 @@ fn family() -> impl clap::builder::TypedValueParser<Value = &'static Family> {
 }
 
 /// Runs what was asked for and ends with the exit status.
-pub(super) fn run(arguments: &Bench) -> Outcome {
+pub(super) fn run(arguments: &BenchArgs) -> Outcome {
     if arguments.frames {
         return run_frames(arguments);
     }
@@ -73,7 +75,7 @@ pub(super) fn run(arguments: &Bench) -> Outcome {
     let mut progress = Progress::new("bench", samples.len())?;
     let length = length_of(arguments, samples.len());
     let lock = right_to_measure(length, &progress);
-    let mut report = bench::run(
+    let mut measured = bench::run(
         plan(arguments),
         &samples,
         arguments.sweep.seed,
@@ -82,17 +84,18 @@ pub(super) fn run(arguments: &Bench) -> Outcome {
     );
     // Where that can't be found out, the other self-checks have to do.
     let alone = lock.as_ref().ok().map(Option::is_some);
-    report.self_checks.extend(alone.map(SelfCheck::alone));
+    measured.self_checks.extend(alone.map(SelfCheck::alone));
     drop(lock);
     progress.clear();
+    let machine = Machine::detect();
     let drawn = save(arguments.sweep.plot.as_deref(), || {
-        plot::work_precision(&report, &Machine::detect())
+        plot::work_precision(&measured, &machine)
     });
-    write_out(&in_format(&report, arguments).map_err(Failure::invalid)?)?;
+    write_out(&in_format(&measured, &machine, arguments))?;
     drawn?;
     Ok(if progress.interrupted() {
         INTERRUPTED
-    } else if arguments.strict && !report.times_trusted() {
+    } else if arguments.strict && !measured.times_trusted() {
         INVALID
     } else {
         DONE
@@ -100,7 +103,7 @@ pub(super) fn run(arguments: &Bench) -> Outcome {
 }
 
 /// How long a run of so many parts takes about, for those who wait for it.
-fn length_of(arguments: &Bench, parts: usize) -> Duration {
+fn length_of(arguments: &BenchArgs, parts: usize) -> Duration {
     let each = if arguments.sweep.quick { 1 } else { 15 };
     Duration::from_secs(each * parts as u64)
 }
@@ -120,8 +123,8 @@ fn right_to_measure(length: Duration, progress: &Progress) -> io::Result<Option<
 }
 
 /// Measures whole frames instead of single rays.
-fn run_frames(arguments: &Bench) -> Outcome {
-    let mut schedule = frames::Schedule::new(arguments.sweep.quick, arguments.sweep.seed);
+fn run_frames(arguments: &BenchArgs) -> Outcome {
+    let mut schedule = FrameSchedule::new(arguments.sweep.quick, arguments.sweep.seed);
     if let Some(methods) = arguments.sweep.named() {
         schedule.methods = methods.into();
     }
@@ -133,7 +136,7 @@ fn run_frames(arguments: &Bench) -> Outcome {
     // No explorer of this host should time its picture meanwhile.
     let length = length_of(arguments, schedule.rows());
     let _lock = right_to_measure(length, &progress);
-    let report = frames::run(
+    let times = frames::run(
         &schedule,
         &SystemClock::new(),
         &mut Screen::default(),
@@ -141,13 +144,12 @@ fn run_frames(arguments: &Bench) -> Outcome {
     );
     progress.clear();
     let machine = Machine::detect();
-    let text = match arguments.sweep.format {
-        Format::Text => Ok(frames::table(&report, &machine)),
-        Format::Markdown => Ok(frames::markdown(&report, &machine)),
-        Format::Csv => frames::csv(&report).map_err(|e| format!("CSV: {e}")),
-        Format::Json => frames::json(&report, &machine).map_err(|e| format!("JSON: {e}")),
-    };
-    write_out(&text.map_err(Failure::invalid)?)?;
+    write_out(&match arguments.sweep.format {
+        Format::Text => frames::text(&times, &machine).text(),
+        Format::Markdown => frames::markdown(&times, &machine).markdown(),
+        Format::Csv => frames::records(&times).csv(),
+        Format::Json => frames::json(&times, &machine),
+    })?;
     Ok(if progress.interrupted() {
         INTERRUPTED
     } else {
@@ -166,8 +168,8 @@ impl frames::Output for Screen {
     }
 }
 
-fn plan(arguments: &Bench) -> Plan<'_> {
-    Plan {
+fn plan(arguments: &BenchArgs) -> BenchPlan<'_> {
+    BenchPlan {
         methods: arguments.sweep.methods(),
         schedule: Schedule {
             rounds: if arguments.sweep.quick { 15 } else { 101 },
@@ -176,7 +178,7 @@ fn plan(arguments: &Bench) -> Plan<'_> {
     }
 }
 
-fn samples(arguments: &Bench) -> Result<Vec<Sample>, Failure> {
+fn samples(arguments: &BenchArgs) -> Result<Vec<Sample>, Failure> {
     let usual = if arguments.sweep.quick { 2048 } else { 16_384 };
     let rays = arguments.rays.map_or(usual, |rays| rays as usize);
     if let Some(name) = &arguments.scene {
@@ -200,12 +202,11 @@ fn samples(arguments: &Bench) -> Result<Vec<Sample>, Failure> {
     Ok(chosen.into_iter().map(sample).collect())
 }
 
-fn in_format(report: &Report, arguments: &Bench) -> Result<String, String> {
-    let machine = Machine::detect();
+fn in_format(measured: &Benchmark, machine: &Machine, arguments: &BenchArgs) -> String {
     match arguments.sweep.format {
-        Format::Text => Ok(bench::table(report, &machine, !arguments.brief)),
-        Format::Markdown => Ok(bench::markdown(report, &machine)),
-        Format::Csv => bench::csv(report, &machine).map_err(|e| format!("CSV: {e}")),
-        Format::Json => bench::json(report, &machine).map_err(|e| format!("JSON: {e}")),
+        Format::Text => bench::text(measured, machine, !arguments.brief).text(),
+        Format::Markdown => bench::markdown(measured, machine).markdown(),
+        Format::Csv => bench::records(measured, machine).csv(),
+        Format::Json => bench::json(measured, machine),
     }
 }

@@ -3,45 +3,39 @@
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::failure::{DONE, INVALID};
 use super::output::Complaints;
 use super::rows::{Columns, CsvFile, CsvRow, unreadable};
-use super::{Failure, Outcome, write_out};
+use super::{Failure, Outcome, choice, write_out};
 use crate::door::{Expected, shown};
 use crate::lab::Problem;
 use crate::lab::grade::{self, Claim};
 use crate::method::Class;
+use crate::report::Format;
 use crate::text::read;
 
 /// Hold somebody else's answers against the truth, beside the methods here
 #[derive(Debug, Args)]
-pub(super) struct Grade {
+pub(super) struct GradeArgs {
     /// CSV with the columns ox,oy,oz,dx,dy,dz,cx,cy,cz,r and class,near,far; `-` for standard input
     #[arg(value_name = "FILE")]
     file: PathBuf,
 
     /// How the report is written
-    #[arg(long, value_enum, default_value_t = Format::Text)]
+    #[arg(long, value_parser = choice(&[Format::Text, Format::Json], Format::name), default_value = Format::Text.name())]
     format: Format,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
-    Text,
-    Json,
-}
-
 /// Grades the file; exit status 1 if some row could not be graded.
-pub(super) fn run(arguments: &Grade) -> Outcome {
+pub(super) fn run(arguments: &GradeArgs) -> Outcome {
     let file = rows_of(&arguments.file)?;
     let graded = grade::grade(&file.problems, &file.claims);
-    let text = match arguments.format {
-        Format::Text => Ok(grade::table(&graded)),
-        Format::Json => grade::json(&graded).map_err(|e| format!("JSON: {e}")),
-    };
-    write_out(&text.map_err(Failure::invalid)?)?;
+    write_out(&match arguments.format {
+        Format::Json => grade::json(&graded),
+        _ => grade::text(&graded).text(),
+    })?;
     Ok(if file.any_refused { INVALID } else { DONE })
 }
 

@@ -45,16 +45,16 @@ struct Arguments {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    Bench(bench::Bench),
+    Bench(bench::BenchArgs),
     Completions(completions::Completions),
-    Grade(grade::Grade),
-    Plan(plan::Plan),
+    Grade(grade::GradeArgs),
+    Plan(plan::PlanArgs),
     Print(print::Print),
     Scenes(scenes::Scenes),
     Solve(solve::Solve),
-    Stress(stress::Stress),
+    Stress(stress::StressArgs),
     Tour(Box<tour::Tour>),
-    Worksheet(worksheet::Worksheet),
+    Worksheet(worksheet::WorksheetArgs),
 }
 
 /// Runs the program with the arguments of this process.

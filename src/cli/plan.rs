@@ -1,9 +1,8 @@
 //! `rayscope plan`: what a frame of a scene needs, what is left out, and why.
 
 use std::ffi::OsString;
-use std::fmt::Write as _;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Style as CellStyle};
@@ -15,13 +14,13 @@ use crate::explain::{self, PlanLine};
 use crate::explorer::usual_step;
 use crate::method::Method;
 use crate::render::{AnsiColor, CELL_ASPECT, Cell, ColorDepth, Frame, Image, Look, Style, View};
+use crate::report::{self, Column, Field, Format, Report, Table};
 use crate::scene::{PixelShape, Rays, Rgb, Scene, Size};
 use crate::terminal::{Capability, Limits, Painter};
-use crate::text;
 
 /// Show what a frame needs, what is left out, and why
 #[derive(Debug, Args)]
-pub(super) struct Plan {
+pub(super) struct PlanArgs {
     /// A scene file, or the name of a built-in scene
     scene: OsString,
 
@@ -50,20 +49,13 @@ pub(super) struct Plan {
     sphere: usize,
 
     /// How the plan is written
-    #[arg(long, value_enum, default_value_t = Format::Text)]
+    #[arg(long, value_parser = choice(&[Format::Text, Format::Json, Format::Csv], Format::name), default_value = Format::Text.name())]
     format: Format,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
-    Text,
-    Json,
-    Csv,
 }
 
 /// The plans of some frames that follow each other.
 #[derive(Debug, Serialize)]
-struct Report {
+struct Plans {
     scene: String,
     width: u32,
     height: u32,
@@ -72,11 +64,11 @@ struct Report {
     method: &'static str,
     view: &'static str,
     style: &'static str,
-    frames: Vec<Entry>,
+    frames: Vec<FramePlan>,
 }
 
 #[derive(Debug, Serialize)]
-struct Entry {
+struct FramePlan {
     frame: &'static str,
     what: String,
     how: &'static str,
@@ -84,19 +76,16 @@ struct Entry {
 }
 
 /// Works out the plans, writes them and ends with the exit status.
-pub(super) fn run(arguments: &Plan) -> Outcome {
-    let report = report(arguments)?;
-    let text = match arguments.format {
-        Format::Text => Ok(Capability::of_output().glyphs.spell(&text(&report))),
-        Format::Json => serde_json::to_string_pretty(&report)
-            .map(|json| json + "\n")
-            .map_err(|e| format!("JSON: {e}")),
-        Format::Csv => csv(&report).map_err(|e| format!("CSV: {e}")),
-    };
-    write_out(&text.map_err(Failure::invalid)?)
+pub(super) fn run(arguments: &PlanArgs) -> Outcome {
+    let plans = plans(arguments)?;
+    write_out(&match arguments.format {
+        Format::Json => report::json(&plans),
+        Format::Csv => records(&plans).csv(),
+        _ => Capability::of_output().glyphs.spell(&text(&plans).text()),
+    })
 }
 
-fn report(arguments: &Plan) -> Result<Report, Failure> {
+fn plans(arguments: &PlanArgs) -> Result<Plans, Failure> {
     let (mut scene, _) = Scene::open(&arguments.scene).map_err(Failure::invalid)?;
     let (style, spheres) = (arguments.style, scene.bodies.len());
     if arguments.sphere == 0 || arguments.sphere > spheres.max(1) {
@@ -116,7 +105,7 @@ fn report(arguments: &Plan) -> Result<Report, Failure> {
         let what = format!("sphere {} has moved by one step", arguments.sphere);
         frames.push(screen.show(&scene, "sphere", what));
     }
-    Ok(Report {
+    Ok(Plans {
         scene: scene.name,
         width: size.width,
         height: size.height,
@@ -145,7 +134,7 @@ struct Screen {
 }
 
 impl Screen {
-    fn new(arguments: &Plan, view: View, size: Size, shape: PixelShape) -> Self {
+    fn new(arguments: &PlanArgs, view: View, size: Size, shape: PixelShape) -> Self {
         Self {
             size,
             shape,
@@ -164,7 +153,7 @@ impl Screen {
     }
 
     /// Draws the next frame; its plan.
-    fn show(&mut self, scene: &Scene, frame: &'static str, what: impl Into<String>) -> Entry {
+    fn show(&mut self, scene: &Scene, frame: &'static str, what: impl Into<String>) -> FramePlan {
         let rays = Rays::new(&scene.camera, self.size, self.shape);
         self.frame.render(scene, &rays, self.method, self.view);
         self.image.draw(&self.frame, scene, self.look);
@@ -172,7 +161,7 @@ impl Screen {
         let mut lines = explain::plan_lines(plan, &self.image);
         let how = explain::plan_sentence(plan);
         lines.push(self.bytes());
-        Entry {
+        FramePlan {
             frame,
             what: what.into(),
             how,
@@ -218,8 +207,8 @@ fn style_of(cell: &Cell, depth: ColorDepth) -> CellStyle {
     CellStyle::new().fg(color(cell.fg)).bg(color(cell.bg))
 }
 
-fn text(report: &Report) -> String {
-    let Report {
+fn text(plans: &Plans) -> Report {
+    let Plans {
         scene,
         width,
         height,
@@ -228,42 +217,54 @@ fn text(report: &Report) -> String {
         method,
         view,
         style,
-        ..
-    } = report;
+        frames,
+    } = plans;
     let plural = if *spheres == 1 { "" } else { "s" };
-    let mut out = format!(
-        "{scene}: {width}×{height} pixels, {spheres} sphere{plural}, {projection}, {method}, {view}, {style}\n"
-    );
-    // Writing to a string does not fail.
-    for Entry {
-        what, how, plan, ..
-    } in &report.frames
-    {
-        let _ = writeln!(out, "\n{what}");
-        for line in text::wrap(how, 80) {
-            let _ = writeln!(out, "{line}");
-        }
-        out += "\n";
-        out += &explain::plan_text(plan, 80);
-    }
-    out
+    let start = Report::new().words(format!(
+        "{scene}: {width}×{height} pixels, {spheres} sphere{plural}, {projection}, {method}, {view}, {style}"
+    ));
+    frames.iter().fold(start, |report, frame| {
+        report
+            .gap()
+            .words(&frame.what)
+            .words(frame.how)
+            .gap()
+            .table(table(&frame.plan))
+    })
 }
 
-fn csv(report: &Report) -> Result<String, Box<dyn std::error::Error>> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(["frame", "what", "kept", "left_out", "because"])?;
-    for entry in &report.frames {
-        for line in &entry.plan {
-            let numbers = [line.kept, line.left_out].map(|n| n.to_string());
-            let [kept, left_out] = &numbers;
-            writer.write_record([
-                entry.frame,
-                line.what.trim_start(),
-                kept,
-                left_out,
-                &line.because,
-            ])?;
-        }
-    }
-    Ok(String::from_utf8(writer.into_inner()?)?)
+fn table(plan: &[PlanLine]) -> Table {
+    let row = |line: &PlanLine| {
+        let [kept, left_out] = [line.kept, line.left_out].map(|n| n.to_string());
+        vec![
+            line.what.to_owned(),
+            kept,
+            left_out,
+            line.because.to_string(),
+        ]
+    };
+    let columns = [
+        Column::left(""),
+        Column::right("kept"),
+        Column::right("left out"),
+        Column::words("because"),
+    ];
+    Table::new(columns, plan.iter().map(row))
+}
+
+/// The columns of the CSV: of a frame, and of one line of its plan.
+const COLUMNS: [Field<(&'static str, PlanLine)>; 5] = [
+    ("frame", |(frame, _)| (*frame).to_owned()),
+    ("what", |(_, line)| line.what.trim_start().to_owned()),
+    ("kept", |(_, line)| line.kept.to_string()),
+    ("left_out", |(_, line)| line.left_out.to_string()),
+    ("because", |(_, line)| line.because.to_string()),
+];
+
+fn records(plans: &Plans) -> Table {
+    let lines = plans
+        .frames
+        .iter()
+        .flat_map(|frame| frame.plan.iter().map(|line| (frame.frame, line.clone())));
+    Table::of(&COLUMNS, lines)
 }

@@ -5,16 +5,17 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use super::failure::{DONE, INVALID};
 use super::progress::{INTERRUPTED, Progress};
-use super::sweep::{Format, Sweep};
-use super::{Failure, Outcome, save, whole, write_out};
-use crate::lab::stress::{self, Plan, Report};
+use super::sweep::SweepArgs;
+use super::{Outcome, save, whole, write_out};
+use crate::lab::stress::{self, Stability, StressPlan};
 use crate::lab::{Dial, plot};
+use crate::report::Format;
 
 /// Turn one dial after the other from tame to broken: where does each method break down?
 #[derive(Debug, Args)]
-pub(super) struct Stress {
+pub(super) struct StressArgs {
     #[command(flatten)]
-    sweep: Sweep,
+    sweep: SweepArgs,
 
     /// Only these dials, separated by commas
     #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = dial())]
@@ -31,27 +32,26 @@ fn dial() -> impl TypedValueParser<Value = &'static Dial> {
 }
 
 /// Runs what was asked for; the exit status says whether `exact` and `double` kept their promises.
-pub(super) fn run(arguments: &Stress) -> Outcome {
+pub(super) fn run(arguments: &StressArgs) -> Outcome {
     let plan = plan(arguments);
     let mut progress = Progress::new("stress", plan.dials.len() + 1)?;
-    let report = stress::run(&plan, |number, name| progress.go_on(number, name));
+    let swept = stress::run(&plan, |number, name| progress.go_on(number, name));
     progress.clear();
-    let drawn = save(arguments.sweep.plot.as_deref(), || plot::stability(&report));
-    let text = in_format(&report, arguments.sweep.format).map_err(Failure::invalid)?;
-    write_out(&text)?;
+    let drawn = save(arguments.sweep.plot.as_deref(), || plot::stability(&swept));
+    write_out(&in_format(&swept, arguments.sweep.format))?;
     drawn?;
     Ok(if progress.interrupted() {
         INTERRUPTED
-    } else if report.promises_kept() {
+    } else if swept.promises_kept() {
         DONE
     } else {
         INVALID
     })
 }
 
-fn plan(arguments: &Stress) -> Plan {
+fn plan(arguments: &StressArgs) -> StressPlan {
     let usual = if arguments.sweep.quick { 256 } else { 2048 };
-    Plan {
+    StressPlan {
         methods: arguments.sweep.methods().into(),
         dials: if arguments.dial.is_empty() {
             Dial::ALL.iter().collect()
@@ -63,11 +63,11 @@ fn plan(arguments: &Stress) -> Plan {
     }
 }
 
-fn in_format(report: &Report, format: Format) -> Result<String, String> {
+fn in_format(swept: &Stability, format: Format) -> String {
     match format {
-        Format::Text => Ok(stress::table(report)),
-        Format::Markdown => Ok(stress::markdown(report)),
-        Format::Csv => stress::csv(report).map_err(|e| format!("CSV: {e}")),
-        Format::Json => stress::json(report).map_err(|e| format!("JSON: {e}")),
+        Format::Text => stress::text(swept).text(),
+        Format::Markdown => stress::markdown(swept).markdown(),
+        Format::Csv => stress::records(swept).csv(),
+        Format::Json => stress::json(swept),
     }
 }

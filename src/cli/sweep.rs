@@ -2,14 +2,15 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::{choice, seed};
 use crate::method::Method;
+use crate::report::Format;
 
 /// How much is measured, of what, and how it is told.
 #[derive(Debug, Args)]
-pub(super) struct Sweep {
+pub(super) struct SweepArgs {
     /// Fewer rays and rounds: seconds instead of minutes
     #[arg(long)]
     pub quick: bool,
@@ -27,20 +28,11 @@ pub(super) struct Sweep {
     pub plot: Option<PathBuf>,
 
     /// How the report is written
-    #[arg(long, value_enum, default_value_t = Format::Text)]
+    #[arg(long, value_parser = choice(&Format::ALL, Format::name), default_value = Format::Text.name())]
     pub format: Format,
 }
 
-/// How a report is written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub(super) enum Format {
-    Text,
-    Csv,
-    Json,
-    Markdown,
-}
-
-impl Sweep {
+impl SweepArgs {
     /// The methods that are asked for by name, if any is.
     pub fn named(&self) -> Option<&[Method]> {
         (!self.method.is_empty()).then_some(&self.method)

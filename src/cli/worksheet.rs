@@ -13,7 +13,7 @@ use crate::terminal::Capability;
 
 /// Print exercises about pixels of a scene for pencil and paper, and their answers on a page apart
 #[derive(Debug, Args)]
-pub(super) struct Worksheet {
+pub(super) struct WorksheetArgs {
     /// A scene file, or the name of a built-in scene
     scene: OsString,
 
@@ -32,7 +32,7 @@ pub(super) struct Worksheet {
 
     /// How the sheet is written
     #[arg(long, value_name = "FORMAT", value_enum, default_value_t)]
-    format: Format,
+    format: SheetFormat,
 
     /// Only one of the two parts [default: both, the answers on a page of their own]
     #[arg(long, value_name = "PART", value_enum)]
@@ -41,7 +41,7 @@ pub(super) struct Worksheet {
 
 /// How a worksheet is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-enum Format {
+enum SheetFormat {
     /// To be printed as it is; a form feed begins a new page
     #[default]
     Text,
@@ -61,14 +61,14 @@ enum Only {
 const SIZE: Size = Size::new(40, 40);
 
 /// Writes the worksheet, or why there is none.
-pub(super) fn run(arguments: &Worksheet) -> Outcome {
+pub(super) fn run(arguments: &WorksheetArgs) -> Outcome {
     let glyphs = Capability::of_output().glyphs;
     let text = text(arguments).map_err(Failure::invalid)?;
     write_out(&glyphs.spell(&text))
 }
 
-fn text(arguments: &Worksheet) -> Result<String, String> {
-    let Worksheet { seed, count, .. } = *arguments;
+fn text(arguments: &WorksheetArgs) -> Result<String, String> {
+    let WorksheetArgs { seed, count, .. } = *arguments;
     let (scene, _) = Scene::open(&arguments.scene).map_err(|e| e.to_string())?;
     let name = arguments.scene.to_string_lossy();
     if scene.bodies.is_empty() {
@@ -85,16 +85,16 @@ fn text(arguments: &Worksheet) -> Result<String, String> {
         ));
     }
     let write = |part| match arguments.format {
-        Format::Text => sheet.text(part),
-        Format::Markdown => sheet.markdown(part),
+        SheetFormat::Text => sheet.text(part),
+        SheetFormat::Markdown => sheet.markdown(part),
     };
     Ok(match arguments.only {
         Some(Only::Exercises) => write(Part::Exercises),
         Some(Only::Key) => write(Part::Key),
         None => {
             let new_page = match arguments.format {
-                Format::Text => "\u{c}",
-                Format::Markdown => "\n<div style=\"page-break-after: always\"></div>\n\n",
+                SheetFormat::Text => "\u{c}",
+                SheetFormat::Markdown => "\n<div style=\"page-break-after: always\"></div>\n\n",
             };
             write(Part::Exercises) + new_page + &write(Part::Key)
         }

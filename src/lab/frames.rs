@@ -5,7 +5,7 @@
 
 mod report;
 
-pub use report::{csv, json, markdown, table};
+pub use report::{json, markdown, records, text};
 
 use std::hint::black_box;
 
@@ -68,7 +68,7 @@ pub trait Output {
 
 /// What a run is to measure.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Schedule {
+pub struct FrameSchedule {
     /// Numbers of spheres, ascending.
     pub counts: Vec<usize>,
     /// Sizes of the picture, in pixels.
@@ -84,7 +84,7 @@ pub struct Schedule {
     pub seed: u64,
 }
 
-impl Schedule {
+impl FrameSchedule {
     /// The usual run, or a quick one.
     pub fn new(quick: bool, seed: u64) -> Self {
         let powers = if quick { 0..=4 } else { 0..=6 };
@@ -109,7 +109,7 @@ const TOO_LONG: f64 = 60_000.0;
 
 /// The times of one number of spheres, size and method: medians, in milliseconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Row {
+pub struct FrameRow {
     /// Spheres in the scene.
     pub spheres: usize,
     /// The picture.
@@ -147,7 +147,7 @@ pub struct Parts {
     pub encode: f64,
 }
 
-impl Row {
+impl FrameRow {
     /// Whether the plan is quicker, planning included; unknown frames without it are slower.
     pub fn pays(&self) -> bool {
         self.no_plan_ms.is_none_or(|without| self.plan_ms < without)
@@ -161,16 +161,16 @@ impl Row {
 
 /// The rows of a run.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Report {
+pub struct FrameTimes {
     /// What the scenes were drawn from.
     pub seed: u64,
     /// Whether all rows are there.
     pub complete: bool,
     /// The rows, in the order in which they were measured.
-    pub rows: Vec<Row>,
+    pub rows: Vec<FrameRow>,
 }
 
-impl Report {
+impl FrameTimes {
     /// The slope of log time over log work, where the work is spheres and the pixels that they cover
     /// together: 1 if time grows in proportion to their sum. None of fewer than two rows.
     pub fn slope(&self, method: Method) -> Option<f64> {
@@ -187,12 +187,12 @@ impl Report {
 
 /// Measures all rows of a schedule. `go_on` is told which row comes, and asked before each frame.
 pub fn run(
-    schedule: &Schedule,
+    schedule: &FrameSchedule,
     clock: &dyn Clock,
     output: &mut dyn Output,
     mut go_on: impl FnMut(usize, &str) -> bool,
-) -> Report {
-    let mut report = Report {
+) -> FrameTimes {
+    let mut report = FrameTimes {
         seed: schedule.seed,
         complete: true,
         rows: Vec::new(),
@@ -204,7 +204,7 @@ pub fn run(
             for &method in &schedule.methods {
                 let number = report.rows.len();
                 let name = format!("{count} spheres, {size}, {method}");
-                let mut stand = Stand {
+                let mut harness = Harness {
                     schedule,
                     clock,
                     scenes: &scenes,
@@ -216,7 +216,7 @@ pub fn run(
                 let smaller = smaller
                     .copied()
                     .find(|r| (r.size, r.method) == (size, method));
-                let Some(row) = stand.measure(output, smaller) else {
+                let Some(row) = harness.measure(output, smaller) else {
                     report.complete = false;
                     return report;
                 };
@@ -228,8 +228,8 @@ pub fn run(
 }
 
 /// Two scenes that take turns, and what is asked about them.
-struct Stand<'a> {
-    schedule: &'a Schedule,
+struct Harness<'a> {
+    schedule: &'a FrameSchedule,
     clock: &'a dyn Clock,
     scenes: &'a [Scene; 2],
     rays: Rays,
@@ -237,9 +237,9 @@ struct Stand<'a> {
     go_on: &'a mut dyn FnMut() -> bool,
 }
 
-impl Stand<'_> {
+impl Harness<'_> {
     /// All times of a row; none if `go_on` said no. `smaller` is the row of fewer spheres.
-    fn measure(&mut self, output: &mut dyn Output, smaller: Option<Row>) -> Option<Row> {
+    fn measure(&mut self, output: &mut dyn Output, smaller: Option<FrameRow>) -> Option<FrameRow> {
         let mut frame = Frame::new();
         let (scenes, rays, method) = (self.scenes, self.rays, self.method);
         let with_plan = self.time(3, |i| {
@@ -253,7 +253,7 @@ impl Stand<'_> {
         let one_moved = self.time_one_moved(&mut frame)?;
         let (plan_ms, plan) = (median(&with_plan), median(&planning));
         let [cells, diff, encode, bytes] = self.time_output(&mut frame, output)?;
-        Some(Row {
+        Some(FrameRow {
             spheres: scenes[0].bodies.len(),
             size: rays.size,
             method,
@@ -307,7 +307,7 @@ impl Stand<'_> {
 
     /// Whether a frame without the plan would take over a minute, going by that of fewer spheres: of the
     /// row before, or of the first few.
-    fn would_be_too_long(&self, smaller: Option<Row>) -> bool {
+    fn would_be_too_long(&self, smaller: Option<FrameRow>) -> bool {
         let (spheres, ms) = smaller.map_or_else(
             || self.time_without_plan(&self.few()),
             |row| (row.spheres, row.no_plan_ms),
@@ -438,8 +438,8 @@ mod tests {
         }
     }
 
-    fn schedule() -> Schedule {
-        Schedule {
+    fn schedule() -> FrameSchedule {
+        FrameSchedule {
             counts: vec![1, 10],
             sizes: vec![Size::new(8, 6), Size::new(20, 10)],
             methods: vec![Method::Exact, Method::Textbook],
@@ -463,7 +463,7 @@ mod tests {
             assert_eq!((row.plan_ms, row.no_plan_ms), (1.0, Some(1.0)));
             assert!(!row.pays());
         }
-        let text = table(&report, &crate::lab::Machine::detect());
+        let text = text(&report, &crate::lab::Machine::detect()).text();
         assert!(
             text.lines().all(|line| line.chars().count() <= 80),
             "{text}"

@@ -1,7 +1,5 @@
 //! Somebody else's answers held against the truth, beside the methods of this program.
 
-use std::fmt::Write as _;
-
 use serde::Serialize;
 
 use super::bench::text::{brief, error_lines};
@@ -10,7 +8,8 @@ use super::numbers;
 use super::{Problem, Reference};
 use crate::method::format::binary32;
 use crate::method::{Class, Method, Solution};
-use crate::text::{Glyphs, hexadecimal, paragraph};
+use crate::report::{self, Column, Report, Table};
+use crate::text::{Glyphs, hexadecimal};
 
 /// What somebody says of one ray and sphere.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,49 +67,49 @@ pub fn grade(problems: &[Problem], claims: &[Claim]) -> Grade {
 /// The name of somebody else's answers.
 const CLAIMED: &str = "given";
 
-/// The grade as a table of 80 columns, and the inputs of the worst and the first wrong claim.
-pub fn table(grade: &Grade) -> String {
-    let ours = grade.ours.iter().map(|(m, errors)| (' ', m.name(), errors));
-    let rows: Vec<_> = std::iter::once(('>', CLAIMED, &grade.claimed))
+/// The grade as text, with the inputs of the worst and the first wrong claim.
+pub fn text(grade: &Grade) -> Report {
+    let ours = grade.ours.iter().map(|(m, errors)| ("", m.name(), errors));
+    let rows: Vec<_> = std::iter::once((">", CLAIMED, &grade.claimed))
         .chain(ours)
         .collect();
-    let mut out = error_lines(&grade.census, &rows);
     let errors = &grade.claimed;
-    if let Some((problem, fault)) = &errors.first_wrong {
-        // Writing to a string does not fail.
-        let _ = writeln!(out, "\nfirst wrong answer given: {}", fault.name());
-        out += &input(problem);
-    }
-    if let Some(Worst { problem, error }) = &errors.worst {
-        let _ = writeln!(
-            out,
-            "\nlargest error given: {} ulp, {} for {}",
+    let first = errors.first_wrong.as_ref().map(|(problem, fault)| {
+        let sentence = format!("first wrong answer given: {}", fault.name());
+        input(sentence, problem)
+    });
+    let largest = errors.worst.as_ref().map(|Worst { problem, error }| {
+        let sentence = format!(
+            "largest error given: {} ulp, {} for {}",
             brief(error.ulps),
             hexadecimal(error.answer),
             hexadecimal(error.exact)
         );
-        out += &input(problem);
-    }
-    out
+        input(sentence, problem)
+    });
+    let table = Report::new().table(error_lines(&grade.census, &rows));
+    first.into_iter().chain(largest).fold(table, Report::then)
 }
 
 /// A problem in hexadecimal, and as the command that works it out step by step.
-fn input(problem: &Problem) -> String {
+fn input(sentence: String, problem: &Problem) -> Report {
     let x = numbers(problem);
     let list = |x: &[f32]| {
         let decimals = x.iter().map(|&x| binary32(x, Glyphs::Ascii).to_string());
         decimals.collect::<Vec<_>>().join(",")
     };
-    let [ox, oy, oz, dx, dy, dz, cx, cy, cz, r] = x.map(hexadecimal);
-    let command = format!(
-        "  rayscope solve --ray={} --sphere={}",
-        list(&x[..6]),
-        list(&x[6..])
-    );
-    format!(
-        "  p0 {ox} {oy} {oz}\n  d  {dx} {dy} {dz}\n  c  {cx} {cy} {cz}\n  r  {r}\n{}",
-        paragraph(&command)
-    )
+    let [p0, d, c, r] = [&x[..3], &x[3..6], &x[6..9], &x[9..]].map(|x| {
+        let exact: Vec<String> = x.iter().map(|&x| hexadecimal(x)).collect();
+        exact.join(" ")
+    });
+    let input = [("p0", p0), ("d", d), ("c", c), ("r", r)];
+    let input = input.map(|(name, value)| vec![name.to_owned(), value]);
+    let (ray, sphere) = (list(&x[..6]), list(&x[6..]));
+    Report::new()
+        .gap()
+        .words(sentence)
+        .table(Table::new(["", ""].map(Column::left), input).indented(2))
+        .words(format!("  rayscope solve --ray={ray} --sphere={sphere}"))
 }
 
 #[derive(Serialize)]
@@ -151,15 +150,14 @@ impl Entry {
 }
 
 /// The grade as one JSON object; the answers that were given are the method `given`.
-pub fn json(grade: &Grade) -> serde_json::Result<String> {
+pub fn json(grade: &Grade) -> String {
     let rays = grade.census.rays;
     let ours = grade.ours.iter();
-    let document = Document {
+    report::json(&Document {
         rayscope: env!("CARGO_PKG_VERSION"),
         census: grade.census,
         results: std::iter::once(Entry::of(CLAIMED, rays, &grade.claimed))
             .chain(ours.map(|(method, errors)| Entry::of(method.name(), rays, errors)))
             .collect(),
-    };
-    Ok(serde_json::to_string_pretty(&document)? + "\n")
+    })
 }

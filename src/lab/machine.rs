@@ -34,6 +34,21 @@ impl Machine {
             flags: flags(),
         }
     }
+
+    /// What it is, and how the program was built.
+    pub fn sentences(&self) -> [String; 2] {
+        let Self {
+            cpu,
+            threads,
+            target,
+            compiler,
+            flags,
+        } = self;
+        [
+            format!("{cpu}, {threads} threads, {target}"),
+            format!("{compiler}, {flags}"),
+        ]
+    }
 }
 
 /// The first model name that Linux lists.

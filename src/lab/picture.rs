@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use super::bench::{self, MOST_TIMED, Plan, Report, Sample};
+use super::bench::{self, BenchPlan, Benchmark, MOST_TIMED, Sample};
 use super::bench_lock::{BenchQueue, BenchWait};
 use super::errors::{Fault, Percentiles, Wrong};
 use super::timing::{Schedule, SystemClock};
@@ -154,7 +154,7 @@ pub fn chart(
     queue: &BenchQueue,
     cancel: &AtomicBool,
     mut waits: impl FnMut(Option<BenchWait>),
-) -> Result<Report, NoChart> {
+) -> Result<Benchmark, NoChart> {
     let lock = queue.wait(LENGTH, |wait| {
         waits(Some(wait));
         !cancel.load(Ordering::Relaxed)
@@ -169,7 +169,7 @@ pub fn chart(
     if sample.problems.is_empty() {
         return Err(NoChart::Empty);
     }
-    let plan = Plan {
+    let plan = BenchPlan {
         methods: &Method::ALL,
         schedule: Schedule {
             rounds: ROUNDS,

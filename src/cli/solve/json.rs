@@ -9,6 +9,7 @@ use crate::geometry::{Ray, Sphere};
 use crate::method::format::{self};
 use crate::method::trace::{Loss, LossKind, Measured, Step, Trace};
 use crate::method::{Class, Place, Precision, Solution, Surd};
+use crate::report;
 use crate::text::Glyphs;
 
 /// Digits of exact values.
@@ -16,9 +17,7 @@ const DIGITS: usize = 60;
 
 /// The derivation with a line end.
 pub(super) fn text(ray: &Ray, sphere: &Sphere, trace: &Trace) -> String {
-    let document = Document::new(ray, sphere, trace);
-    // Nothing in the document can fail to be written: its keys are strings.
-    serde_json::to_string_pretty(&document).unwrap_or_default() + "\n"
+    report::json(&Document::new(ray, sphere, trace))
 }
 
 #[derive(Serialize)]

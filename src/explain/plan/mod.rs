@@ -2,8 +2,6 @@
 
 mod reasons;
 
-use std::fmt::Write as _;
-
 use super::panel::{Line, Role};
 use crate::text::wrap;
 
@@ -49,29 +47,6 @@ pub fn plan_panel(frame: &str, plan: &[PlanLine], width: usize) -> Vec<Line> {
     out
 }
 
-/// The plan as a table, with the reasons in a column of their own.
-pub fn plan_text(plan: &[PlanLine], width: usize) -> String {
-    let wide = 12;
-    let margin = NAME + 2 * (wide + 1) + 2;
-    let mut out = format!(
-        "{:NAME$} {:>wide$} {:>wide$}  because\n",
-        "", "kept", "left out"
-    );
-    for line in plan {
-        let numbers = format!(
-            "{:NAME$} {:>wide$} {:>wide$}",
-            line.what, line.kept, line.left_out
-        );
-        let words = wrap(&line.because, width.saturating_sub(margin));
-        for (i, text) in words.iter().enumerate() {
-            let start = if i == 0 { numbers.as_str() } else { "" };
-            // Writing to a string does not fail.
-            let _ = writeln!(out, "{start:0$}  {text}", margin - 2);
-        }
-    }
-    out
-}
-
 fn right(text: &str, width: usize) -> String {
     format!("{text:>width$}")
 }
@@ -98,9 +73,6 @@ mod tests {
         for line in plan_panel("It rests.", &plan, 34) {
             let width: usize = line.spans.iter().map(|s| s.text.chars().count()).sum();
             assert!(width <= 34, "{line:?}");
-        }
-        for line in plan_text(&plan, 80).lines() {
-            assert!(line.chars().count() <= 80, "{line}");
         }
     }
 }

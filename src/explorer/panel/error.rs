@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 use crate::explain::{Line, Role};
 use crate::explorer::Explorer;
 use crate::explorer::panel::Panel;
-use crate::lab::bench::Report;
+use crate::lab::bench::Benchmark;
 use crate::lab::picture::{NoChart, chart};
 use crate::lab::timing::SelfCheck;
 use crate::lab::{BenchQueue, BenchWait};
@@ -48,7 +48,7 @@ impl Subject {
 /// A measurement that has come to its end.
 #[derive(Debug)]
 pub(crate) struct Chart {
-    pub(crate) report: Report,
+    pub(crate) report: Benchmark,
     of: Subject,
     /// The document's version and the rays for which `is_stale` was found out.
     seen: Option<(u64, Rays)>,
@@ -71,7 +71,7 @@ struct Run {
 enum News {
     /// Others come first; nobody any more.
     Waits(Option<BenchWait>),
-    Ends(Result<Report, NoChart>),
+    Ends(Result<Benchmark, NoChart>),
 }
 
 impl Drop for Run {
@@ -256,7 +256,7 @@ impl Explorer {
         }
     }
 
-    fn end_measuring(&mut self, of: Subject, end: Result<Report, NoChart>) {
+    fn end_measuring(&mut self, of: Subject, end: Result<Benchmark, NoChart>) {
         match end {
             Ok(report) => {
                 self.measuring.chart = Some(Chart {

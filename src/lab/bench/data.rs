@@ -1,14 +1,15 @@
-//! A bench report for programs: JSON and CSV. docs/accuracy.md lists the fields and columns.
+//! A benchmark for programs: JSON and CSV. docs/accuracy.md lists the fields and columns.
 
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-use super::{Chapter, Report, Row};
+use super::{Benchmark, Chapter, Row};
 use crate::lab::errors::{Census, Percentiles, Worst, Wrong};
 use crate::lab::machine::Machine;
 use crate::lab::numbers;
 use crate::lab::timing::{Nanoseconds, SelfCheck};
 use crate::method::exact::Stage;
+use crate::report::{self, Field, Table};
 use crate::text::hexadecimal;
 
 #[derive(Serialize)]
@@ -99,157 +100,107 @@ impl<'a> Entry<'a> {
 }
 
 /// The report as one JSON object.
-pub fn json(report: &Report, machine: &Machine) -> serde_json::Result<String> {
-    let rows = report
+pub fn json(bench: &Benchmark, machine: &Machine) -> String {
+    let rows = bench
         .chapters
         .iter()
         .flat_map(|chapter| chapter.rows.iter().map(move |row| Entry::of(chapter, row)));
-    let sets = report.chapters.iter().map(|chapter| Set {
+    let sets = bench.chapters.iter().map(|chapter| Set {
         name: &chapter.name,
         about: &chapter.about,
         census: chapter.census,
         order: "as drawn or as in the picture, not sorted by class",
         timed: chapter.timed,
     });
-    let document = Document {
+    report::json(&Document {
         rayscope: env!("CARGO_PKG_VERSION"),
         machine,
-        seed: report.seed,
-        complete: report.complete,
-        checksum: report.checksum().to_string(),
-        times_trusted: report.times_trusted(),
-        self_checks: &report.self_checks,
+        seed: bench.seed,
+        complete: bench.complete,
+        checksum: bench.checksum().to_string(),
+        times_trusted: bench.times_trusted(),
+        self_checks: &bench.self_checks,
         sets: sets.collect(),
         results: rows.collect(),
-    };
-    Ok(serde_json::to_string_pretty(&document)? + "\n")
+    })
 }
 
-/// The columns of the CSV, one row for each set and method.
-const COLUMNS: [&str; 38] = [
-    "family",
-    "method",
-    "rays",
-    "miss",
-    "tangent",
-    "secant",
-    "false_hit",
-    "false_miss",
-    "wrong_count",
-    "not_finite",
-    "judged",
-    "p50",
-    "p99",
-    "p999",
-    "max",
-    "worst_answer",
-    "worst_exact",
-    "worst_input",
-    "ns_median",
-    "ns_min",
-    "ns_iqr",
-    "ratio",
-    "batch_ns_median",
-    "batch_ns_min",
-    "batch_ns_iqr",
-    "batch_ratio",
-    "latency_ns_median",
-    "latency_ns_min",
-    "latency_ns_iqr",
-    "latency_ratio",
-    "pareto",
-    "settled_by",
-    "seed",
-    "checksum",
-    "times_trusted",
-    "cpu",
-    "compiler",
-    "flags",
-];
-
-/// The report as CSV with a header; the ten numbers of the worst input stand in one column with
-/// blanks between them, p0, d, c, r.
-pub fn csv(report: &Report, machine: &Machine) -> Result<String, csv::Error> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(COLUMNS)?;
-    for chapter in &report.chapters {
-        for row in &chapter.rows {
-            writer.write_record(record(report, machine, chapter, row))?;
-        }
-    }
-    let bytes = writer
-        .into_inner()
-        .map_err(csv::IntoInnerError::into_error)?;
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
+/// One set and method, and what they were measured with.
+struct Line<'a> {
+    bench: &'a Benchmark,
+    machine: &'a Machine,
+    chapter: &'a Chapter,
+    row: &'a Row,
+    worst: Option<Largest>,
 }
 
-fn record(
-    report: &Report,
-    machine: &Machine,
-    chapter: &Chapter,
-    row: &Row,
-) -> [String; COLUMNS.len()] {
-    let Census {
-        rays,
-        miss,
-        tangent,
-        secant,
-    } = chapter.census;
-    let errors = &row.errors;
-    let Wrong {
-        false_hit,
-        false_miss,
-        wrong_count,
-        not_finite,
-    } = errors.wrong;
-    let [answer, exact, input] = errors
-        .worst
-        .as_ref()
-        .map(Largest::of)
-        .map_or([const { String::new() }; 3], |worst| {
-            [worst.answer, worst.exact, worst.input.join(" ")]
-        });
-    let (times, ulp) = (&row.times, errors.ulp);
+/// The columns of the CSV; the ten numbers of the worst input lie in one, with blanks between them, p0, d, c, r.
+const fn columns<'a>() -> [Field<Line<'a>>; 38] {
     [
-        chapter.name.clone(),
-        row.method.to_owned(),
-        rays.to_string(),
-        miss.to_string(),
-        tangent.to_string(),
-        secant.to_string(),
-        false_hit.to_string(),
-        false_miss.to_string(),
-        wrong_count.to_string(),
-        not_finite.to_string(),
-        errors.judged.to_string(),
-        ulp.p50.to_string(),
-        ulp.p99.to_string(),
-        ulp.p999.to_string(),
-        ulp.max.to_string(),
-        answer,
-        exact,
-        input,
-        times.throughput.median.to_string(),
-        times.throughput.min.to_string(),
-        times.throughput.iqr.to_string(),
-        times.throughput_ratio.to_string(),
-        times.batch.median.to_string(),
-        times.batch.min.to_string(),
-        times.batch.iqr.to_string(),
-        times.batch_ratio.to_string(),
-        times.latency.median.to_string(),
-        times.latency.min.to_string(),
-        times.latency.iqr.to_string(),
-        times.latency_ratio.to_string(),
-        row.pareto.to_string(),
-        settled_by(row),
-        report.seed.to_string(),
-        report.checksum().to_string(),
-        report.times_trusted().to_string(),
-        machine.cpu.clone(),
-        machine.compiler.clone(),
-        machine.flags.clone(),
+        ("family", |l| l.chapter.name.clone()),
+        ("method", |l| l.row.method.to_owned()),
+        ("rays", |l| l.chapter.census.rays.to_string()),
+        ("miss", |l| l.chapter.census.miss.to_string()),
+        ("tangent", |l| l.chapter.census.tangent.to_string()),
+        ("secant", |l| l.chapter.census.secant.to_string()),
+        ("false_hit", |l| l.row.errors.wrong.false_hit.to_string()),
+        ("false_miss", |l| l.row.errors.wrong.false_miss.to_string()),
+        ("wrong_count", |l| {
+            l.row.errors.wrong.wrong_count.to_string()
+        }),
+        ("not_finite", |l| l.row.errors.wrong.not_finite.to_string()),
+        ("judged", |l| l.row.errors.judged.to_string()),
+        ("p50", |l| l.row.errors.ulp.p50.to_string()),
+        ("p99", |l| l.row.errors.ulp.p99.to_string()),
+        ("p999", |l| l.row.errors.ulp.p999.to_string()),
+        ("max", |l| l.row.errors.ulp.max.to_string()),
+        ("worst_answer", |l| l.of_worst(|w| w.answer.clone())),
+        ("worst_exact", |l| l.of_worst(|w| w.exact.clone())),
+        ("worst_input", |l| l.of_worst(|w| w.input.join(" "))),
+        ("ns_median", |l| l.row.times.throughput.median.to_string()),
+        ("ns_min", |l| l.row.times.throughput.min.to_string()),
+        ("ns_iqr", |l| l.row.times.throughput.iqr.to_string()),
+        ("ratio", |l| l.row.times.throughput_ratio.to_string()),
+        ("batch_ns_median", |l| l.row.times.batch.median.to_string()),
+        ("batch_ns_min", |l| l.row.times.batch.min.to_string()),
+        ("batch_ns_iqr", |l| l.row.times.batch.iqr.to_string()),
+        ("batch_ratio", |l| l.row.times.batch_ratio.to_string()),
+        ("latency_ns_median", |l| {
+            l.row.times.latency.median.to_string()
+        }),
+        ("latency_ns_min", |l| l.row.times.latency.min.to_string()),
+        ("latency_ns_iqr", |l| l.row.times.latency.iqr.to_string()),
+        ("latency_ratio", |l| l.row.times.latency_ratio.to_string()),
+        ("pareto", |l| l.row.pareto.to_string()),
+        ("settled_by", |l| settled_by(l.row)),
+        ("seed", |l| l.bench.seed.to_string()),
+        ("checksum", |l| l.bench.checksum().to_string()),
+        ("times_trusted", |l| l.bench.times_trusted().to_string()),
+        ("cpu", |l| l.machine.cpu.clone()),
+        ("compiler", |l| l.machine.compiler.clone()),
+        ("flags", |l| l.machine.flags.clone()),
     ]
+}
+
+impl Line<'_> {
+    /// What is said of the largest error; nothing if there is none.
+    fn of_worst(&self, said: fn(&Largest) -> String) -> String {
+        self.worst.as_ref().map(said).unwrap_or_default()
+    }
+}
+
+/// One row for each set and method.
+pub fn records(bench: &Benchmark, machine: &Machine) -> Table {
+    let lines = bench.chapters.iter().flat_map(|chapter| {
+        chapter.rows.iter().map(move |row| Line {
+            bench,
+            machine,
+            chapter,
+            row,
+            worst: row.errors.worst.as_ref().map(Largest::of),
+        })
+    });
+    Table::of(&columns(), lines)
 }
 
 fn settled_by(row: &Row) -> String {

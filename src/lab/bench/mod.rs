@@ -5,8 +5,8 @@ pub(crate) mod text;
 
 use std::collections::BTreeSet;
 
-pub use data::{csv, json};
-pub use text::{error_overview, error_table, markdown, table};
+pub use data::{json, records};
+pub use text::{error_overview, error_table, markdown, text};
 
 use crate::lab::Problem;
 use crate::lab::errors::{Census, Checksum, Errors};
@@ -82,7 +82,7 @@ fn draw_lots(all: usize, count: usize, random: &mut Random) -> BTreeSet<usize> {
 
 /// What a run is to measure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Plan<'a> {
+pub struct BenchPlan<'a> {
     /// The methods, in the order of the report.
     pub methods: &'a [Method],
     /// How often each is timed.
@@ -125,7 +125,7 @@ pub struct Chapter {
 
 /// Measures all methods of a plan on one set; none if `go_on` said no.
 pub fn measure(
-    plan: Plan,
+    plan: BenchPlan,
     sample: &Sample,
     clock: &dyn Clock,
     mut go_on: impl FnMut() -> bool,
@@ -166,7 +166,7 @@ pub fn measure(
 
 /// The times of the plan's methods; `textbook` is always run, since ratios are to it.
 fn time_methods(
-    plan: Plan,
+    plan: BenchPlan,
     problems: &[Problem],
     clock: &dyn Clock,
     go_on: impl FnMut() -> bool,
@@ -217,7 +217,7 @@ fn dominates(one: &[f64; 3], other: &[f64; 3]) -> bool {
 
 /// A whole run.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Report {
+pub struct Benchmark {
     /// The seed of the rays.
     pub seed: u64,
     /// The sets that were measured to the end.
@@ -228,7 +228,7 @@ pub struct Report {
     pub complete: bool,
 }
 
-impl Report {
+impl Benchmark {
     /// Whether all self-checks passed.
     pub fn times_trusted(&self) -> bool {
         !self.self_checks.is_empty() && self.self_checks.iter().all(|check| check.passed)
@@ -252,12 +252,12 @@ const CHECK_ROUNDS: usize = 25;
 /// `go_on` is asked often, with the number and the name of the set at hand; once it says no, the
 /// report holds what was complete by then.
 pub fn run(
-    plan: Plan,
+    plan: BenchPlan,
     samples: &[Sample],
     seed: u64,
     clock: &dyn Clock,
     mut go_on: impl FnMut(usize, &str) -> bool,
-) -> Report {
+) -> Benchmark {
     let textbook = timing::routine(Method::Textbook);
     let self_checks = match samples.iter().find(|sample| sample.problems.len() > 1) {
         Some(sample) => {
@@ -271,7 +271,7 @@ pub fn run(
         .enumerate()
         .map_while(|(i, sample)| measure(plan, sample, clock, || go_on(i, &sample.name)))
         .collect();
-    Report {
+    Benchmark {
         seed,
         complete: chapters.len() == samples.len(),
         chapters,

@@ -1,14 +1,13 @@
-//! A bench report for people: a table of at most 80 columns, and the same in Markdown.
+//! A benchmark for people: as text of 80 columns, and the same in Markdown.
 
-use std::fmt::Write as _;
-
-use super::{Chapter, Report, Row};
+use super::{Benchmark, Chapter, Row};
 use crate::lab::errors::{Census, Errors, Fault, Worst};
 use crate::lab::machine::Machine;
 use crate::lab::numbers;
 use crate::lab::timing::{Nanoseconds, Times};
 use crate::method::exact::Stage;
-use crate::text::{hexadecimal, paragraph};
+use crate::report::{Column, Report, Table};
+use crate::text::hexadecimal;
 
 /// A number with about three digits: enough to compare, short enough for a column.
 pub(crate) fn brief(x: f64) -> String {
@@ -26,93 +25,82 @@ pub(crate) fn brief(x: f64) -> String {
     }
 }
 
-/// The report as a table of 80 columns; `worst` adds the inputs of the largest errors.
-pub fn table(report: &Report, machine: &Machine, worst: bool) -> String {
-    let mut out = header(report, machine);
-    for chapter in &report.chapters {
-        out.push('\n');
-        out += &section(chapter, worst);
-    }
-    out.push('\n');
-    out += &footer(report);
-    out
+/// The report as text; `worst` adds the inputs of the largest errors.
+pub fn text(bench: &Benchmark, machine: &Machine, worst: bool) -> Report {
+    let start = Report::new().lines(header(bench, machine));
+    let chapters = bench.chapters.iter();
+    chapters
+        .fold(start, |report, chapter| {
+            report.gap().then(section(chapter, worst))
+        })
+        .gap()
+        .lines(footer(bench))
 }
 
-fn header(report: &Report, machine: &Machine) -> String {
-    let Machine {
-        cpu,
-        threads,
-        target,
-        compiler,
-        flags,
-    } = machine;
-    [
-        format!(
-            "rayscope {} bench, seed {}, checksum of all answers {}",
-            env!("CARGO_PKG_VERSION"),
-            report.seed,
-            report.checksum(),
-        ),
-        format!("{cpu}, {threads} threads, {target}"),
-        format!("{compiler}, {flags}"),
+fn header(bench: &Benchmark, machine: &Machine) -> Vec<String> {
+    let [hardware, build] = machine.sentences();
+    let version = env!("CARGO_PKG_VERSION");
+    let (seed, checksum) = (bench.seed, bench.checksum());
+    vec![
+        format!("rayscope {version} bench, seed {seed}, checksum of all answers {checksum}"),
+        hardware,
+        build,
     ]
-    .map(|line| paragraph(&line))
-    .concat()
 }
 
-fn section(chapter: &Chapter, worst: bool) -> String {
-    let mut out = paragraph(&format!("{}: {}", chapter.name, chapter.about));
-    out += &errors(chapter);
-    out += &times(chapter);
-    for row in &chapter.rows {
-        out += &settled_by(row).map_or(String::new(), |text| paragraph(&format!("  {text}")));
-    }
-    for row in chapter.rows.iter().filter(|_| worst) {
-        out += &row
-            .errors
-            .worst
-            .map_or(String::new(), |w| largest(row.method, &w));
-    }
-    out
+fn section(chapter: &Chapter, worst: bool) -> Report {
+    let rows = &chapter.rows;
+    let settled = rows.iter().filter_map(settled_by);
+    let largest = rows.iter().filter(|_| worst).filter_map(largest);
+    Report::new()
+        .heading(format!("{}: {}", chapter.name, chapter.about))
+        .table(errors(chapter))
+        .table(times(chapter))
+        .lines(settled.map(|text| format!("  {text}")))
+        .lines(largest)
 }
 
-fn errors(chapter: &Chapter) -> String {
+fn errors(chapter: &Chapter) -> Table {
     let rows: Vec<_> = chapter
         .rows
         .iter()
-        .map(|row| (if row.pareto { '*' } else { ' ' }, row.method, &row.errors))
+        .map(|row| (if row.pareto { "*" } else { "" }, row.method, &row.errors))
         .collect();
     error_lines(&chapter.census, &rows)
 }
 
 /// A line of errors for each entrant: a mark, a name, what it got wrong.
-pub(crate) fn error_lines(census: &Census, rows: &[(char, &str, &Errors)]) -> String {
-    let mut out = String::from(
-        "             false  false  wrong    not  error of the worse root in ulp\n  \
-         method       hit   miss  count finite      p50      p99    p99.9  largest\n  of      ",
-    );
-    for fault in Fault::ALL {
-        // Writing to a string does not fail.
-        let _ = write!(out, " {:>6}", census.denominator(fault));
-    }
-    out.push('\n');
-    for (mark, name, errors) in rows {
-        let _ = write!(out, "{mark} {name:9}");
-        for (i, fault) in Fault::ALL.into_iter().enumerate() {
-            let width = if i == 0 { 6 } else { 7 };
-            let _ = write!(out, "{:>width$}", errors.wrong.of(fault));
-        }
-        for value in percentiles(errors) {
-            let _ = write!(out, "{:>9}", brief(value));
-        }
-        out.push('\n');
-    }
-    out
+pub(crate) fn error_lines(census: &Census, rows: &[(&str, &str, &Errors)]) -> Table {
+    let names = [
+        "hit", "miss", "count", "finite", "p50", "p99", "p99.9", "largest",
+    ];
+    let columns = ["", "method"].map(Column::left);
+    let of = Fault::ALL.map(|fault| census.denominator(fault).to_string());
+    let of = [String::new(), "of".into()].into_iter().chain(of).collect();
+    let cells = |&(mark, name, errors): &(&str, &str, &Errors)| {
+        let names = [mark, name].map(str::to_owned).into_iter();
+        names.chain(error_cells(errors)).collect()
+    };
+    Table::new(
+        columns.into_iter().chain(names.map(Column::right)),
+        std::iter::once(of).chain(rows.iter().map(cells)),
+    )
+    .grouped(&[
+        ("", 2),
+        ("false", 1),
+        ("false", 1),
+        ("wrong", 1),
+        ("not", 1),
+        ("error of the worse root in ulp", 4),
+    ])
 }
 
-fn percentiles(errors: &Errors) -> [f64; 4] {
+/// Wrong answers by kind, and the error of the worse root.
+fn error_cells(errors: &Errors) -> impl Iterator<Item = String> {
+    let wrong = Fault::ALL.map(|fault| errors.wrong.of(fault).to_string());
     let ulp = errors.ulp;
-    [ulp.p50, ulp.p99, ulp.p999, ulp.max]
+    let ulp = [ulp.p50, ulp.p99, ulp.p999, ulp.max].map(brief);
+    wrong.into_iter().chain(ulp)
 }
 
 /// The three ways in which a row was timed, with the ratio to `textbook`.
@@ -124,30 +112,29 @@ fn ways(times: &Times) -> [(Nanoseconds, f64); 3] {
     ]
 }
 
-fn times(chapter: &Chapter) -> String {
-    let titles = ["one by one", "in arrays", "waiting for the last"];
-    let mut out = format!("  {:9}", "ns for");
-    for title in titles {
-        let _ = write!(out, "{title:>23}");
-    }
-    let _ = write!(out, "\n  {:9}", "a solve");
-    for _ in titles {
-        let _ = write!(out, "{:>6}{:>6}{:>6}{:>5}", "med.", "min", "iqr", "×tb");
-    }
-    out.push('\n');
-    for row in &chapter.rows {
-        let _ = write!(out, "  {:9}", row.method);
-        for (Nanoseconds { median, min, iqr }, ratio) in ways(&row.times) {
-            let [median, min, iqr] = [median, min, iqr].map(brief);
+fn times(chapter: &Chapter) -> Table {
+    let names = ["med.", "min", "iqr", "×tb"].repeat(3);
+    let cells = |row: &Row| {
+        let ways = ways(&row.times).into_iter().flat_map(|(ns, ratio)| {
             let ratio = match brief(ratio) {
                 long if long.len() > 4 => format!("{ratio:.0}"),
                 ratio => ratio,
             };
-            let _ = write!(out, "{median:>6}{min:>6}{iqr:>6}{ratio:>5}");
-        }
-        out.push('\n');
-    }
-    out
+            [brief(ns.median), brief(ns.min), brief(ns.iqr), ratio]
+        });
+        std::iter::once(row.method.to_owned()).chain(ways).collect()
+    };
+    Table::new(
+        std::iter::once(Column::left("a solve")).chain(names.into_iter().map(Column::right)),
+        chapter.rows.iter().map(cells),
+    )
+    .grouped(&[
+        ("ns for", 1),
+        ("one by one", 4),
+        ("in arrays", 4),
+        ("waiting for the last", 4),
+    ])
+    .indented(2)
 }
 
 /// The stages that settled the rays of `exact`, in words; none for the other methods.
@@ -174,88 +161,89 @@ pub(crate) fn percent(part: usize, all: usize) -> String {
     }
 }
 
-fn largest(method: &str, worst: &Worst) -> String {
-    let error = worst.error;
-    let [ox, oy, oz, dx, dy, dz, cx, cy, cz, r] = numbers(&worst.problem).map(hexadecimal);
-    paragraph(&format!(
-        "  {method}: largest {} ulp, {} for {} at p0 {ox} {oy} {oz} d {dx} {dy} {dz} \
+/// The input of a method's largest error; none if no answer has one.
+fn largest(row: &Row) -> Option<String> {
+    let Worst { error, problem } = row.errors.worst.as_ref()?;
+    let [ox, oy, oz, dx, dy, dz, cx, cy, cz, r] = numbers(problem).map(hexadecimal);
+    Some(format!(
+        "  {}: largest {} ulp, {} for {} at p0 {ox} {oy} {oz} d {dx} {dy} {dz} \
          c {cx} {cy} {cz} r {r}",
+        row.method,
         brief(error.ulps),
         hexadecimal(error.answer),
         hexadecimal(error.exact),
     ))
 }
 
-fn footer(report: &Report) -> String {
-    let mut out = String::new();
-    if !report.complete {
-        out += "Interrupted: what is above is complete, the rest was not measured.\n";
+fn footer(bench: &Benchmark) -> Vec<String> {
+    let mut out = Vec::new();
+    if !bench.complete {
+        out.push("Interrupted: what is above is complete, the rest was not measured.".into());
     }
-    out += "* Pareto: none is as good in wrong answers, p99 and time, and better in one\n";
-    out += "×tb: times textbook in the same rounds, the median over the rounds\n";
-    for check in &report.self_checks {
+    out.push("* Pareto: none is as good in wrong answers, p99 and time, and better in one".into());
+    out.push("×tb: times textbook in the same rounds, the median over the rounds".into());
+    out.extend(bench.self_checks.iter().map(|check| {
         let said = if check.passed { "passed" } else { "FAILED" };
-        let _ = writeln!(
-            out,
+        format!(
             "self-check {said}: {}, {:.3} (from {} to {})",
             check.name, check.ratio, check.least, check.most
-        );
-    }
-    let trusted = report.times_trusted();
-    let _ = writeln!(out, "times_trusted: {trusted}");
+        )
+    }));
+    out.push(format!("times_trusted: {}", bench.times_trusted()));
     out
 }
 
 /// The report in Markdown: overviews of errors and times; for each set a table of errors, which are the same
 /// everywhere, and one of times, which are not.
-pub fn markdown(report: &Report, machine: &Machine) -> String {
-    let mut out = format!("```text\n{}```\n\n", header(report, machine));
-    out += &error_overview(report);
-    out.push('\n');
-    out += "One by one:\n\n";
-    out += &time_overview(report, |times| ways(times)[0]);
-    out += "\nIn arrays:\n\n";
-    out += &time_overview(report, |times| ways(times)[1]);
-    for chapter in &report.chapters {
-        let _ = write!(out, "\n### {}\n\n{}\n\n", chapter.name, chapter.about);
-        out += &error_table(chapter);
-        out.push('\n');
-        out += &time_table(chapter);
-        out.push('\n');
-        for row in &chapter.rows {
-            if let Some(worst) = &row.errors.worst {
-                let input = numbers(&worst.problem).map(hexadecimal).join(" ");
-                let _ = writeln!(out, "* `{}`, largest at `{input}`", row.method);
-            }
-        }
-    }
-    let _ = write!(out, "\n```text\n{}```\n", footer(report));
-    out
+pub fn markdown(bench: &Benchmark, machine: &Machine) -> Report {
+    let start = Report::new()
+        .fixed(header(bench, machine))
+        .table(error_overview(bench))
+        .words("One by one:")
+        .table(time_overview(bench, |times| ways(times)[0]))
+        .words("In arrays:")
+        .table(time_overview(bench, |times| ways(times)[1]));
+    let chapters = bench.chapters.iter();
+    chapters
+        .fold(start, |report, chapter| {
+            report
+                .heading(&chapter.name)
+                .words(&chapter.about)
+                .table(error_table(chapter))
+                .table(time_table(chapter))
+                .items(chapter.rows.iter().filter_map(largest_input).collect())
+        })
+        .fixed(footer(bench))
 }
 
-/// A Markdown table with a line for each set and a column for each method.
-fn overview(report: &Report, cell: impl Fn(&Chapter, &Row) -> String) -> String {
-    let Some(first) = report.chapters.first() else {
-        return String::new();
+fn largest_input(row: &Row) -> Option<String> {
+    let worst = row.errors.worst.as_ref()?;
+    let input = numbers(&worst.problem).map(hexadecimal).join(" ");
+    Some(format!("`{}`, largest at `{input}`", row.method))
+}
+
+/// A name as Markdown shows code.
+pub(crate) fn code(name: &str) -> String {
+    format!("`{name}`")
+}
+
+/// A table with a line for each set and a column for each method.
+fn overview(bench: &Benchmark, cell: impl Fn(&Chapter, &Row) -> String) -> Table {
+    let methods = bench.chapters.first().into_iter().flat_map(|c| &c.rows);
+    let cells = |chapter: &Chapter| {
+        let cells = chapter.rows.iter().map(|row| cell(chapter, row));
+        std::iter::once(chapter.name.clone()).chain(cells).collect()
     };
-    let mut out = String::from("| rays |");
-    for row in &first.rows {
-        let _ = write!(out, " `{}` |", row.method);
-    }
-    let _ = writeln!(out, "\n|---|{}", "--:|".repeat(first.rows.len()));
-    for chapter in &report.chapters {
-        let _ = write!(out, "| {} |", chapter.name);
-        for row in &chapter.rows {
-            let _ = write!(out, " {} |", cell(chapter, row));
-        }
-        out.push('\n');
-    }
-    out
+    Table::new(
+        std::iter::once(Column::left("rays"))
+            .chain(methods.map(|row| Column::right(code(row.method)))),
+        bench.chapters.iter().map(cells),
+    )
 }
 
 /// Wrong answers and the 99th percentile of the error in ulp, set by set.
-pub fn error_overview(report: &Report) -> String {
-    overview(report, |chapter, row| {
+pub fn error_overview(bench: &Benchmark) -> Table {
+    overview(bench, |chapter, row| {
         let errors = &row.errors;
         let p99 = match errors.judged {
             0 => "–".to_owned(),
@@ -269,51 +257,49 @@ pub fn error_overview(report: &Report) -> String {
 }
 
 /// The median time of one solve in ns, and how many times that of `textbook` it is.
-fn time_overview(report: &Report, way: fn(&Times) -> (Nanoseconds, f64)) -> String {
-    overview(report, |_, row| {
+fn time_overview(bench: &Benchmark, way: fn(&Times) -> (Nanoseconds, f64)) -> Table {
+    overview(bench, |_, row| {
         let (ns, ratio) = way(&row.times);
         format!("{} ({ratio:.2})", brief(ns.median))
     })
 }
 
-/// The error columns of one set as a Markdown table.
-pub fn error_table(chapter: &Chapter) -> String {
-    let mut out = String::from("| method |");
-    for fault in Fault::ALL {
+/// The errors of one set for Markdown.
+pub fn error_table(chapter: &Chapter) -> Table {
+    let faults = Fault::ALL.map(|fault| {
         let of = chapter.census.denominator(fault);
-        let _ = write!(out, " {} of {of} |", fault.name());
-    }
-    out += " p50 ulp | p99 | p99.9 | largest |\n|---|";
-    out += &"--:|".repeat(8);
-    out.push('\n');
-    for row in &chapter.rows {
-        let _ = write!(out, "| `{}` |", row.method);
-        for fault in Fault::ALL {
-            let _ = write!(out, " {} |", row.errors.wrong.of(fault));
-        }
-        for value in percentiles(&row.errors) {
-            let _ = write!(out, " {} |", brief(value));
-        }
-        out.push('\n');
-    }
-    out
+        Column::right(format!("{} of {of}", fault.name()))
+    });
+    let ulp = ["p50 ulp", "p99", "p99.9", "largest"].map(Column::right);
+    let columns = std::iter::once(Column::left("method"));
+    let cells = |row: &Row| {
+        let method = std::iter::once(code(row.method));
+        method.chain(error_cells(&row.errors)).collect()
+    };
+    Table::new(
+        columns.chain(faults).chain(ulp),
+        chapter.rows.iter().map(cells),
+    )
 }
 
-fn time_table(chapter: &Chapter) -> String {
-    let mut out = String::from(
-        "| method | ns one by one | min | iqr | × textbook | ns in arrays | min | iqr | × textbook | \
-         latency ns | min | iqr | × textbook | Pareto |\n|---|",
-    );
-    out += &"--:|".repeat(12);
-    out += "---|\n";
-    for row in &chapter.rows {
-        let _ = write!(out, "| `{}` |", row.method);
-        for (Nanoseconds { median, min, iqr }, ratio) in ways(&row.times) {
-            let _ = write!(out, " {median:.1} | {min:.1} | {iqr:.1} | {ratio:.2} |");
-        }
-        let _ = writeln!(out, " {} |", if row.pareto { "yes" } else { "" });
-    }
-    out
+fn time_table(chapter: &Chapter) -> Table {
+    let ways_in_words = ["ns one by one", "ns in arrays", "latency ns"];
+    let names = ways_in_words.map(|way| [way, "min", "iqr", "× textbook"].map(Column::right));
+    let columns = std::iter::once(Column::left("method"))
+        .chain(names.into_iter().flatten())
+        .chain([Column::left("Pareto")]);
+    let cells = |row: &Row| {
+        let ways = ways(&row.times).into_iter().flat_map(|(ns, ratio)| {
+            let [median, min, iqr] = [ns.median, ns.min, ns.iqr].map(|ns| format!("{ns:.1}"));
+            [median, min, iqr, format!("{ratio:.2}")]
+        });
+        let pareto = if row.pareto { "yes" } else { "" };
+        std::iter::once(code(row.method))
+            .chain(ways)
+            .chain([pareto.to_owned()])
+            .collect()
+    };
+    Table::new(columns, chapter.rows.iter().map(cells))
 }
 
 #[cfg(test)]

@@ -1,56 +1,46 @@
-//! The report of `bench --frames`: a table of 80 columns, Markdown, CSV and JSON.
-
-use std::fmt::Write as _;
+//! The times of frames for people and programs. docs/plan.md explains the columns.
 
 use serde::Serialize;
 
-use super::{Report, Row};
+use super::{FrameRow, FrameTimes};
 use crate::lab::machine::Machine;
 use crate::method::Method;
-use crate::text::wrap;
+use crate::report::{self, Field, Report, Table};
 
-/// The report as tables of 80 columns.
-pub fn table(report: &Report, machine: &Machine) -> String {
-    let mut out = String::new();
-    for line in preface(report, machine) {
-        out += &(wrap(&line, 80).join("\n") + "\n");
-    }
-    out += "\nmilliseconds of a frame\n";
-    out += &in_columns(&TIMES, &report.rows, times);
-    out += "\nwhere they go, with the plan, up to the bytes for a terminal of 256 colours\n";
-    out += &in_columns(&PARTS, &report.rows, parts);
-    out.push('\n');
-    for line in remarks(report) {
-        out += &(wrap(&line, 80).join("\n") + "\n");
-    }
-    out
+/// The times as text.
+pub fn text(times: &FrameTimes, machine: &Machine) -> Report {
+    Report::new()
+        .lines(preface(times, machine))
+        .gap()
+        .words("milliseconds of a frame")
+        .table(Table::of(&TIMES, times.rows.iter().copied()).numbers())
+        .gap()
+        .words("where they go, with the plan, up to the bytes for a terminal of 256 colours")
+        .table(Table::of(&PARTS, times.rows.iter().copied()).numbers())
+        .gap()
+        .lines(remarks(times))
 }
 
-/// The report in Markdown.
-pub fn markdown(report: &Report, machine: &Machine) -> String {
-    let mut out = preface(report, machine).join("  \n") + "\n\nMilliseconds of a frame:\n\n";
-    out += &in_markdown(&TIMES, &report.rows, times);
-    out += "\nWhere they go, with the plan, up to the bytes for a terminal of 256 colours:\n\n";
-    out += &in_markdown(&PARTS, &report.rows, parts);
-    out + "\n" + &remarks(report).join("  \n") + "\n"
+/// The times in Markdown.
+pub fn markdown(times: &FrameTimes, machine: &Machine) -> Report {
+    Report::new()
+        .lines(preface(times, machine))
+        .words("Milliseconds of a frame:")
+        .table(Table::of(&TIMES, times.rows.iter().copied()).numbers())
+        .words("Where they go, with the plan, up to the bytes for a terminal of 256 colours:")
+        .table(Table::of(&PARTS, times.rows.iter().copied()).numbers())
+        .lines(remarks(times))
 }
 
-fn preface(report: &Report, machine: &Machine) -> Vec<String> {
-    let Machine {
-        cpu,
-        threads,
-        target,
-        compiler,
-        flags,
-    } = machine;
-    vec![
+fn preface(times: &FrameTimes, machine: &Machine) -> [String; 3] {
+    let [hardware, build] = machine.sentences();
+    let (version, seed) = (env!("CARGO_PKG_VERSION"), times.seed);
+    [
         format!(
-            "rayscope {} bench --frames, seed {}, one thread, every sphere moved in each frame, shaded, medians",
-            env!("CARGO_PKG_VERSION"),
-            report.seed,
+            "rayscope {version} bench --frames, seed {seed}, one thread, every sphere moved in each frame, shaded, medians"
         ),
-        format!("{cpu}, {threads} threads, {target}"),
-        format!("{compiler}, {flags}, {}", dispatch()),
+        hardware,
+        format!("{build}, {}", dispatch()),
     ]
 }
 
@@ -63,93 +53,47 @@ fn dispatch() -> &'static str {
     }
 }
 
-const TIMES: [&str; 7] = [
-    "spheres",
-    "pixels",
-    "method",
-    "plan",
-    "no plan",
-    "ratio",
-    "one moved",
+const TIMES: [Field<FrameRow>; 7] = [
+    ("spheres", |row| row.spheres.to_string()),
+    ("pixels", |row| row.size.to_string()),
+    ("method", |row| row.method.to_string()),
+    ("plan", |row| brief(row.plan_ms)),
+    ("no plan", |row| {
+        row.no_plan_ms.map_or("> 60000".into(), brief)
+    }),
+    ("ratio", |row| {
+        ratio(row).map_or("-".into(), |ratio| format!("{ratio:.1}"))
+    }),
+    ("one moved", |row| brief(row.one_moved_ms)),
 ];
 
-fn times(row: &Row) -> Vec<String> {
-    vec![
-        row.spheres.to_string(),
-        row.size.to_string(),
-        row.method.to_string(),
-        brief(row.plan_ms),
-        row.no_plan_ms.map_or("> 60000".into(), brief),
-        row.no_plan_ms.map_or("-".into(), |without| {
-            format!("{:.1}", without / row.plan_ms)
-        }),
-        brief(row.one_moved_ms),
-    ]
+fn ratio(row: &FrameRow) -> Option<f64> {
+    Some(row.no_plan_ms? / row.plan_ms)
 }
 
-const PARTS: [&str; 9] = [
-    "spheres", "pixels", "plan", "rays", "cells", "diff", "encode", "bytes", "covered",
+const PARTS: [Field<FrameRow>; 9] = [
+    ("spheres", |row| row.spheres.to_string()),
+    ("pixels", |row| row.size.to_string()),
+    ("plan", |row| brief(row.parts.plan)),
+    ("rays", |row| brief(row.parts.rays)),
+    ("cells", |row| brief(row.parts.cells)),
+    ("diff", |row| brief(row.parts.diff)),
+    ("encode", |row| brief(row.parts.encode)),
+    ("bytes", |row| row.bytes.to_string()),
+    ("covered", |row| row.covered.to_string()),
 ];
-
-fn parts(row: &Row) -> Vec<String> {
-    let parts = row.parts;
-    let mut out = vec![row.spheres.to_string(), row.size.to_string()];
-    let numbers = [
-        parts.plan,
-        parts.rays,
-        parts.cells,
-        parts.diff,
-        parts.encode,
-    ];
-    out.extend(numbers.map(brief));
-    out.extend([row.bytes.to_string(), row.covered.to_string()]);
-    out
-}
-
-fn in_columns(heads: &[&str], rows: &[Row], cells: fn(&Row) -> Vec<String>) -> String {
-    let rows: Vec<Vec<String>> = rows.iter().map(cells).collect();
-    let width = |i: usize| {
-        let of_rows = rows.iter().map(|row| row[i].chars().count()).max();
-        heads[i].len().max(of_rows.unwrap_or(0))
-    };
-    let heads = heads.iter().map(|&head| head.to_owned()).collect();
-    let mut out = String::new();
-    for row in std::iter::once(&heads).chain(&rows) {
-        let line: Vec<String> = row
-            .iter()
-            .enumerate()
-            .map(|(i, cell)| format!("{cell:>0$}", width(i)))
-            .collect();
-        out += &line.join("  ");
-        out.push('\n');
-    }
-    out
-}
-
-fn in_markdown(heads: &[&str], rows: &[Row], cells: fn(&Row) -> Vec<String>) -> String {
-    let mut out = format!(
-        "| {} |\n|{}\n",
-        heads.join(" | "),
-        "---:|".repeat(heads.len())
-    );
-    for row in rows {
-        // Writing to a string does not fail.
-        let _ = writeln!(out, "| {} |", cells(row).join(" | "));
-    }
-    out
-}
 
 /// How the cost grows, and where the plan does not pay.
-fn remarks(report: &Report) -> Vec<String> {
+fn remarks(times: &FrameTimes) -> Vec<String> {
     let mut out = Vec::new();
     for method in Method::ALL {
-        if let Some(slope) = report.slope(method) {
+        if let Some(slope) = times.slope(method) {
             out.push(format!(
                 "{method}: time grows as (spheres + pixels covered)^{slope:.2}; proportion is 1."
             ));
         }
     }
-    let loses: Vec<String> = report
+    let loses: Vec<String> = times
         .rows
         .iter()
         .filter(|row| !row.pays())
@@ -163,7 +107,7 @@ fn remarks(report: &Report) -> Vec<String> {
             loses.join(", ")
         )
     });
-    if !report.complete {
+    if !times.complete {
         out.push("Interrupted: the remaining rows were not measured.".into());
     }
     out
@@ -203,8 +147,8 @@ struct Entry {
     pays: bool,
 }
 
-impl From<&Row> for Entry {
-    fn from(row: &Row) -> Self {
+impl From<&FrameRow> for Entry {
+    fn from(row: &FrameRow) -> Self {
         Self {
             spheres: row.spheres,
             width: row.size.width,
@@ -244,29 +188,46 @@ struct Slope {
 }
 
 /// The report as one JSON object.
-pub fn json(report: &Report, machine: &Machine) -> serde_json::Result<String> {
+pub fn json(times: &FrameTimes, machine: &Machine) -> String {
     let slope = |method: Method| {
-        let slope = report.slope(method)?;
+        let slope = times.slope(method)?;
         let method = method.name();
         Some(Slope { method, slope })
     };
-    let document = Document {
+    report::json(&Document {
         rayscope: env!("CARGO_PKG_VERSION"),
         machine,
         vectors: dispatch(),
-        seed: report.seed,
-        complete: report.complete,
+        seed: times.seed,
+        complete: times.complete,
         slopes: Method::ALL.into_iter().filter_map(slope).collect(),
-        frames: report.rows.iter().map(Entry::from).collect(),
-    };
-    Ok(serde_json::to_string_pretty(&document)? + "\n")
+        frames: times.rows.iter().map(Entry::from).collect(),
+    })
 }
 
-/// The rows as CSV; an empty `no_plan_ms` would take over a minute.
-pub fn csv(report: &Report) -> Result<String, Box<dyn std::error::Error>> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in &report.rows {
-        writer.serialize(Entry::from(row))?;
-    }
-    Ok(String::from_utf8(writer.into_inner()?)?)
+/// The columns of the CSV; an empty `no_plan_ms` would take over a minute.
+const COLUMNS: [Field<FrameRow>; 16] = [
+    ("spheres", |row| row.spheres.to_string()),
+    ("width", |row| row.size.width.to_string()),
+    ("height", |row| row.size.height.to_string()),
+    ("method", |row| row.method.to_string()),
+    ("plan_ms", |row| row.plan_ms.to_string()),
+    ("no_plan_ms", |row| {
+        row.no_plan_ms.map_or(String::new(), |ms| ms.to_string())
+    }),
+    ("best_ms", |row| row.best_ms.to_string()),
+    ("one_moved_ms", |row| row.one_moved_ms.to_string()),
+    ("planning_ms", |row| row.parts.plan.to_string()),
+    ("rays_ms", |row| row.parts.rays.to_string()),
+    ("cells_ms", |row| row.parts.cells.to_string()),
+    ("diff_ms", |row| row.parts.diff.to_string()),
+    ("encode_ms", |row| row.parts.encode.to_string()),
+    ("bytes", |row| row.bytes.to_string()),
+    ("covered", |row| row.covered.to_string()),
+    ("pays", |row| row.pays().to_string()),
+];
+
+/// One row for each number of spheres, size and method.
+pub fn records(times: &FrameTimes) -> Table {
+    Table::of(&COLUMNS, times.rows.iter().copied())
 }

@@ -2,7 +2,7 @@
 
 use super::svg::{Anchor, Marker, Stroke, Svg};
 use super::{INK, Panel, legend, look, power_label};
-use crate::lab::stress::{Cell, Report, Sweep, bits_lost};
+use crate::lab::stress::{Cell, Stability, Sweep, bits_lost};
 
 const COLUMNS: usize = 2;
 const BITS: [f64; 2] = [420.0, 150.0];
@@ -12,7 +12,7 @@ const LEFT: f64 = 62.0;
 const TOP: f64 = 92.0;
 
 /// The chart of a report as an SVG document.
-pub fn stability(report: &Report) -> String {
+pub fn stability(report: &Stability) -> String {
     let rows = report.sweeps.len().div_ceil(COLUMNS);
     let columns = report.sweeps.len().clamp(1, COLUMNS);
     let height_of_one = BITS[1] + RATES + GAP[1];
@@ -30,7 +30,7 @@ pub fn stability(report: &Report) -> String {
     svg.finish()
 }
 
-fn header(svg: &mut Svg, report: &Report) {
+fn header(svg: &mut Svg, report: &Stability) {
     let title = "Stability: bits lost (of 24, the worst of each setting) and wrong answers";
     svg.text([16.0, 24.0], title, 16.0, "#000000", Anchor::Start);
     let note = format!(
@@ -42,7 +42,7 @@ fn header(svg: &mut Svg, report: &Report) {
     legend(svg, [16.0, 62.0], &methods);
 }
 
-fn draw(svg: &mut Svg, at: [f64; 2], report: &Report, sweep: &Sweep) {
+fn draw(svg: &mut Svg, at: [f64; 2], report: &Stability, sweep: &Sweep) {
     let Some((first, last)) = sweep.steps.first().zip(sweep.steps.last()) else {
         return;
     };

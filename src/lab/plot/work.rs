@@ -3,7 +3,7 @@
 use super::svg::{Anchor, Stroke, Svg};
 use super::{INK, Panel, legend, look, power_label};
 use crate::lab::bench::text::percent;
-use crate::lab::bench::{Chapter, Report, Row};
+use crate::lab::bench::{Benchmark, Chapter, Row};
 use crate::lab::machine::Machine;
 
 const COLUMNS: usize = 3;
@@ -21,7 +21,7 @@ const ERRORS: [f64; 2] = [-2.0, 36.0];
 const NONE_RIGHT: f64 = 35.0;
 
 /// The chart of a report as an SVG document.
-pub fn work_precision(report: &Report, machine: &Machine) -> String {
+pub fn work_precision(report: &Benchmark, machine: &Machine) -> String {
     let rows = report.chapters.len().div_ceil(COLUMNS);
     let columns = report.chapters.len().clamp(2, COLUMNS);
     let width = LEFT + columns as f64 * (PANEL[0] + GAP[0]) - 20.0;
@@ -44,7 +44,7 @@ pub fn work_precision(report: &Report, machine: &Machine) -> String {
     svg.finish()
 }
 
-fn header(svg: &mut Svg, report: &Report, machine: &Machine) {
+fn header(svg: &mut Svg, report: &Benchmark, machine: &Machine) {
     let title = "Error (99th percentile, in ulp) against the time of one solve (ns): the lower left is best";
     svg.text([16.0, 24.0], title, 16.0, "#000000", Anchor::Start);
     let Machine {
@@ -70,7 +70,7 @@ fn header(svg: &mut Svg, report: &Report, machine: &Machine) {
 }
 
 /// log₁₀ of the shortest and the longest time, in whole steps of a factor of 10^(1/2).
-fn span(report: &Report) -> [f64; 2] {
+fn span(report: &Benchmark) -> [f64; 2] {
     let times = report
         .chapters
         .iter()

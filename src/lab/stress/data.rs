@@ -1,12 +1,13 @@
-//! A stress report for programs: JSON and CSV. docs/stability.md lists the fields and columns.
+//! The stability sweeps for programs: JSON and CSV. docs/stability.md lists the fields and columns.
 
 use serde::Serialize;
 
 use super::theory::agree;
-use super::{Cell, Report};
+use super::{Cell, Stability};
 use crate::lab::Problem;
 use crate::lab::errors::{Percentiles, Wrong};
 use crate::lab::numbers;
+use crate::report::{self, Field, Table};
 use crate::text::hexadecimal;
 
 #[derive(Serialize)]
@@ -96,8 +97,8 @@ fn input(problem: &Problem) -> [String; 10] {
     numbers(problem).map(hexadecimal)
 }
 
-fn settings(report: &Report) -> impl Iterator<Item = Setting> {
-    report.sweeps.iter().flat_map(move |sweep| {
+fn settings(stability: &Stability) -> impl Iterator<Item = Setting> {
+    stability.sweeps.iter().flat_map(move |sweep| {
         sweep.steps.iter().flat_map(move |step| {
             let one = move |(method, cell): (&crate::method::Method, &Cell)| {
                 let errors = &cell.errors;
@@ -121,33 +122,37 @@ fn settings(report: &Report) -> impl Iterator<Item = Setting> {
                     moved: cell.moved,
                 }
             };
-            report.methods.iter().zip(&step.cells).map(one)
+            stability.methods.iter().zip(&step.cells).map(one)
         })
     })
 }
 
-fn breakdowns(report: &Report) -> impl Iterator<Item = Breakdown> {
-    report.sweeps.iter().flat_map(move |sweep| {
-        report.methods.iter().enumerate().map(move |(i, method)| {
-            let at = report.breakdown(sweep, i);
-            let place = |found, theory| Place {
-                found,
-                theory,
-                agree: agree(found, theory, sweep.dial.step()),
-            };
-            Breakdown {
-                dial: sweep.dial.name,
-                quantity: sweep.dial.quantity,
-                method: method.name(),
-                wrong: place(at.wrong, at.wrong_in_theory),
-                moved: place(at.moved, at.moved_in_theory),
-            }
-        })
+fn breakdowns(stability: &Stability) -> impl Iterator<Item = Breakdown> {
+    stability.sweeps.iter().flat_map(move |sweep| {
+        stability
+            .methods
+            .iter()
+            .enumerate()
+            .map(move |(i, method)| {
+                let at = stability.breakdown(sweep, i);
+                let place = |found, theory| Place {
+                    found,
+                    theory,
+                    agree: agree(found, theory, sweep.dial.step()),
+                };
+                Breakdown {
+                    dial: sweep.dial.name,
+                    quantity: sweep.dial.quantity,
+                    method: method.name(),
+                    wrong: place(at.wrong, at.wrong_in_theory),
+                    moved: place(at.moved, at.moved_in_theory),
+                }
+            })
     })
 }
 
-fn inputs(report: &Report) -> impl Iterator<Item = Inputs> {
-    report.sweeps.iter().flat_map(|sweep| {
+fn inputs(stability: &Stability) -> impl Iterator<Item = Inputs> {
+    stability.sweeps.iter().flat_map(|sweep| {
         sweep.steps.iter().filter_map(|step| {
             let super::Inputs { changed, ulp } = step.inputs?;
             Some(Inputs {
@@ -162,14 +167,14 @@ fn inputs(report: &Report) -> impl Iterator<Item = Inputs> {
 }
 
 /// The report as one JSON object.
-pub fn json(report: &Report) -> serde_json::Result<String> {
-    let promises = report.kept.iter().map(|kept| Promise {
+pub fn json(stability: &Stability) -> String {
+    let promises = stability.kept.iter().map(|kept| Promise {
         method: kept.method.name(),
         asked: kept.asked,
         broken: kept.broken,
         first: kept.first.as_ref().map(input),
     });
-    let checks = report.checks.iter().map(|check| Check {
+    let checks = stability.checks.iter().map(|check| Check {
         name: check.name,
         method: check.method.name(),
         rays: check.rays,
@@ -177,90 +182,54 @@ pub fn json(report: &Report) -> serde_json::Result<String> {
         passed: check.failed == 0,
         first: check.first.as_ref().map(input),
     });
-    let document = Document {
+    report::json(&Document {
         rayscope: env!("CARGO_PKG_VERSION"),
-        seed: report.seed,
-        rays: report.rays,
-        complete: report.complete,
-        checksum: report.checksum().to_string(),
-        promises_kept: report.promises_kept(),
+        seed: stability.seed,
+        rays: stability.rays,
+        complete: stability.complete,
+        checksum: stability.checksum().to_string(),
+        promises_kept: stability.promises_kept(),
         promises: promises.collect(),
-        breakdowns: breakdowns(report).collect(),
+        breakdowns: breakdowns(stability).collect(),
         checks: checks.collect(),
-        settings: settings(report).collect(),
-        inputs: inputs(report).collect(),
-    };
-    Ok(serde_json::to_string_pretty(&document)? + "\n")
+        settings: settings(stability).collect(),
+        inputs: inputs(stability).collect(),
+    })
 }
 
-/// The columns of the CSV, one row for each dial, setting and method.
-const COLUMNS: [&str; 21] = [
-    "dial",
-    "k",
-    "method",
-    "rays",
-    "miss",
-    "meet",
-    "false_hit",
-    "false_miss",
-    "wrong_count",
-    "not_finite",
-    "judged",
-    "p50",
-    "p99",
-    "p999",
-    "max",
-    "bits_median",
-    "bits_worst",
-    "blame_median",
-    "blame_worst",
-    "moved",
-    "seed",
+/// The columns of the CSV.
+const COLUMNS: [Field<Line>; 21] = [
+    ("dial", |(_, s)| s.dial.to_owned()),
+    ("k", |(_, s)| s.k.to_string()),
+    ("method", |(_, s)| s.method.to_owned()),
+    ("rays", |(_, s)| s.rays.to_string()),
+    ("miss", |(_, s)| s.miss.to_string()),
+    ("meet", |(_, s)| s.meet.to_string()),
+    ("false_hit", |(_, s)| s.wrong.false_hit.to_string()),
+    ("false_miss", |(_, s)| s.wrong.false_miss.to_string()),
+    ("wrong_count", |(_, s)| s.wrong.wrong_count.to_string()),
+    ("not_finite", |(_, s)| s.wrong.not_finite.to_string()),
+    ("judged", |(_, s)| s.judged.to_string()),
+    ("p50", |(_, s)| s.ulp.p50.to_string()),
+    ("p99", |(_, s)| s.ulp.p99.to_string()),
+    ("p999", |(_, s)| s.ulp.p999.to_string()),
+    ("max", |(_, s)| s.ulp.max.to_string()),
+    ("bits_median", |(_, s)| optional(s.bits_lost.median)),
+    ("bits_worst", |(_, s)| optional(s.bits_lost.worst)),
+    ("blame_median", |(_, s)| s.blame.p50.to_string()),
+    ("blame_worst", |(_, s)| s.blame.max.to_string()),
+    ("moved", |(_, s)| s.moved.to_string()),
+    ("seed", |(seed, _)| seed.to_string()),
 ];
 
-/// The settings as CSV with a header.
-pub fn csv(report: &Report) -> Result<String, csv::Error> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    writer.write_record(COLUMNS)?;
-    for setting in settings(report) {
-        writer.write_record(record(report.seed, &setting))?;
-    }
-    let bytes = writer
-        .into_inner()
-        .map_err(csv::IntoInnerError::into_error)?;
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
+/// The seed, and one setting.
+type Line = (u64, Setting);
+
+fn optional(number: Option<f64>) -> String {
+    number.map_or(String::new(), |number| number.to_string())
 }
 
-fn record(seed: u64, setting: &Setting) -> [String; COLUMNS.len()] {
-    let Wrong {
-        false_hit,
-        false_miss,
-        wrong_count,
-        not_finite,
-    } = setting.wrong;
-    let (ulp, blame) = (setting.ulp, setting.blame);
-    let bits = |bits: Option<f64>| bits.map_or(String::new(), |bits| bits.to_string());
-    [
-        setting.dial.to_owned(),
-        setting.k.to_string(),
-        setting.method.to_owned(),
-        setting.rays.to_string(),
-        setting.miss.to_string(),
-        setting.meet.to_string(),
-        false_hit.to_string(),
-        false_miss.to_string(),
-        wrong_count.to_string(),
-        not_finite.to_string(),
-        setting.judged.to_string(),
-        ulp.p50.to_string(),
-        ulp.p99.to_string(),
-        ulp.p999.to_string(),
-        ulp.max.to_string(),
-        bits(setting.bits_lost.median),
-        bits(setting.bits_lost.worst),
-        blame.p50.to_string(),
-        blame.max.to_string(),
-        setting.moved.to_string(),
-        seed.to_string(),
-    ]
+/// One row for each dial, setting and method.
+pub fn records(stability: &Stability) -> Table {
+    Table::of(&COLUMNS, settings(stability).map(|s| (stability.seed, s)))
 }

@@ -6,9 +6,9 @@ mod invariance;
 mod text;
 mod theory;
 
-pub use data::{csv, json};
+pub use data::{json, records};
 pub use invariance::Check;
-pub use text::{check_table, markdown, summary_table, sweep_table, table};
+pub use text::{check_table, markdown, summary_table, sweep_table, text};
 pub use theory::AGREEMENT;
 
 use super::dials::Dial;
@@ -102,7 +102,7 @@ pub struct Kept {
 
 /// A whole run.
 #[derive(Debug, Clone)]
-pub struct Report {
+pub struct Stability {
     /// The seed of the rays.
     pub seed: u64,
     /// How many rays a setting has.
@@ -119,7 +119,7 @@ pub struct Report {
     pub complete: bool,
 }
 
-impl Report {
+impl Stability {
     /// Whether every promise was kept wherever it was put to the test.
     pub fn promises_kept(&self) -> bool {
         self.kept.iter().all(|kept| kept.broken == 0)
@@ -156,7 +156,7 @@ impl Report {
 
 /// What a run is to do.
 #[derive(Debug, Clone)]
-pub struct Plan {
+pub struct StressPlan {
     /// The methods, in the order of the report.
     pub methods: Vec<Method>,
     /// What to sweep, in the order of the report.
@@ -171,8 +171,8 @@ pub struct Plan {
 ///
 /// `go_on` is asked before each setting, with the number and the name of the dial; once it says
 /// no, the report holds what was complete by then.
-pub fn run(plan: &Plan, mut go_on: impl FnMut(usize, &str) -> bool) -> Report {
-    let mut report = Report {
+pub fn run(plan: &StressPlan, mut go_on: impl FnMut(usize, &str) -> bool) -> Stability {
+    let mut report = Stability {
         seed: plan.seed,
         rays: plan.rays,
         methods: plan.methods.clone(),
@@ -208,7 +208,7 @@ fn promising(methods: &[Method]) -> Vec<Kept> {
 }
 
 fn sweep(
-    plan: &Plan,
+    plan: &StressPlan,
     dial: &'static Dial,
     kept: &mut [Kept],
     mut go_on: impl FnMut(&str) -> bool,
@@ -237,7 +237,7 @@ fn sweep(
     Some(Sweep { dial, steps })
 }
 
-fn inputs(plan: &Plan, dial: &Dial, k: i32, references: &[Reference]) -> Inputs {
+fn inputs(plan: &StressPlan, dial: &Dial, k: i32, references: &[Reference]) -> Inputs {
     let intents = dial.sample_with_intent(plan.seed, k, plan.rays);
     let mut changed = 0;
     let mut moved = Vec::new();

@@ -1,38 +1,42 @@
-//! A stress report for people: tables of at most 80 columns, and the same in Markdown.
-
-use std::fmt::Write as _;
+//! The stability sweeps for people: as text of 80 columns, and the same in Markdown.
 
 use super::theory::{AGREEMENT, agree};
-use super::{Cell, Check, Inputs, Report, Step, Sweep, bits_lost, invariance};
+use super::{Cell, Check, Stability, Step, Sweep, bits_lost, invariance};
+use crate::lab::bench::text::code;
 use crate::lab::numbers;
-use crate::text::{hexadecimal, paragraph};
+use crate::method::Method;
+use crate::report::{Column, Report, Table};
+use crate::text::hexadecimal;
 
-/// The report as tables of 80 columns: of each dial at most `ROWS` settings, the summary last.
-pub fn table(report: &Report) -> String {
-    let mut out = paragraph(&format!(
+/// The sweeps as text: of each dial at most `ROWS` settings, the summary last.
+pub fn text(stability: &Stability) -> Report {
+    let start = Report::new().words(format!(
         "rayscope {} stress, seed {}, {} rays a setting, checksum of all answers {}",
         env!("CARGO_PKG_VERSION"),
-        report.seed,
-        report.rays,
-        report.checksum()
+        stability.seed,
+        stability.rays,
+        stability.checksum()
     ));
-    for sweep in &report.sweeps {
-        out.push('\n');
-        out += &paragraph(&format!("{}: {}", sweep.dial.name, sweep.dial.about));
-        out += &grid(
-            report,
-            sweep,
-            "wrong answers in per cent, bits lost: median/worst",
-            wrong_and_bits,
-        );
-        out += &grid(report, sweep, "blame err/(κu): median/worst", blame);
-        out += &inputs(sweep);
-    }
-    out.push('\n');
-    out += &summary(report);
-    out += &checks(report);
-    out += &promises(report);
-    out
+    let sweeps = stability.sweeps.iter();
+    sweeps
+        .fold(start, |report, sweep| {
+            report.gap().then(section(stability, sweep))
+        })
+        .gap()
+        .then(summary(stability))
+        .then(checks(stability))
+        .gap()
+        .lines(promises(stability))
+}
+
+fn section(stability: &Stability, sweep: &Sweep) -> Report {
+    Report::new()
+        .heading(format!("{}: {}", sweep.dial.name, sweep.dial.about))
+        .words("  wrong answers in per cent, bits lost: median/worst")
+        .table(grid(stability, sweep, wrong_and_bits))
+        .words("  blame err/(κu): median/worst")
+        .table(grid(stability, sweep, blame))
+        .then(inputs(sweep))
 }
 
 /// The most settings of a dial that a table shows.
@@ -50,41 +54,42 @@ fn chosen(sweep: &Sweep) -> impl Iterator<Item = &Step> {
         .map(|(_, step)| step)
 }
 
-fn grid(report: &Report, sweep: &Sweep, title: &str, cell: fn(&Cell, usize) -> String) -> String {
-    let mut out = format!("  {title}\n{:>8}", sweep.dial.quantity);
-    for method in &report.methods {
-        let _ = write!(out, " {:>11}", method.name());
-    }
-    out.push('\n');
-    for step in chosen(sweep) {
-        let _ = write!(out, "{:>8}", format!("2^{}", step.k));
-        for found in &step.cells {
-            let _ = write!(out, " {:>11}", cell(found, step.census.rays));
-        }
-        out.push('\n');
-    }
-    out
+fn grid(stability: &Stability, sweep: &Sweep, show: fn(&Cell, usize) -> String) -> Table {
+    let methods = stability.methods.iter().map(|method| method.name());
+    let names = std::iter::once(sweep.dial.quantity).chain(methods);
+    let row = |step: &Step| {
+        let found = step.cells.iter().map(|cell| show(cell, step.census.rays));
+        std::iter::once(format!("2^{}", step.k))
+            .chain(found)
+            .collect()
+    };
+    Table::new(names.map(Column::right), chosen(sweep).map(row))
 }
 
 /// What rounding the inputs did, where the dial is about that.
-fn inputs(sweep: &Sweep) -> String {
+fn inputs(sweep: &Sweep) -> Report {
     if !sweep.dial.rounds_inputs() {
-        return String::new();
+        return Report::new();
     }
-    let mut out = String::from(
-        "  what rounding p0, d, c and r cost before any method was asked\n         \
-         hits or misses changed, bits lost: median/worst\n",
-    );
-    for step in chosen(sweep) {
-        let _ = write!(out, "{:>8}", format!("2^{}", step.k));
-        if let Some(Inputs { changed, ulp }) = step.inputs {
-            let [median, worst] = [ulp.p50, ulp.max].map(bits_lost);
-            let changed = in_percent(changed, step.census.rays);
-            let _ = write!(out, " {changed:>6} {median:>5.0}/{worst:.0}");
-        }
-        out.push('\n');
-    }
-    out
+    let row = |step: &Step| {
+        let [changed, bits] = step.inputs.map_or([const { String::new() }; 2], |inputs| {
+            let [median, worst] = [inputs.ulp.p50, inputs.ulp.max].map(bits_lost);
+            [
+                in_percent(inputs.changed, step.census.rays),
+                format!("{median:.0}/{worst:.0}"),
+            ]
+        });
+        vec![format!("2^{}", step.k), changed, bits]
+    };
+    Report::new()
+        .lines([
+            "  what rounding p0, d, c and r cost before any method was asked",
+            "  hits or misses changed, bits lost: median/worst",
+        ])
+        .table(Table::new(
+            [""; 3].map(Column::right),
+            chosen(sweep).map(row),
+        ))
 }
 
 fn wrong_and_bits(cell: &Cell, rays: usize) -> String {
@@ -130,33 +135,44 @@ fn tiny(x: f64) -> String {
 }
 
 /// Where each method breaks down, where theory says it should, and whether the two agree.
-fn summary(report: &Report) -> String {
-    let mut out = format!(
-        "where each method breaks down; theory agrees within a factor of {AGREEMENT}\n\
-         {:35}{:24}{}\n  {:9} {:9} {:10}",
-        "", "first wrong answer", "hit moved > ½ pixel", "dial", "quantity", "method"
+fn summary(stability: &Stability) -> Report {
+    let columns = ["dial", "quantity", "method"].map(Column::left);
+    let of_event = || {
+        [
+            Column::right("found"),
+            Column::right("theory"),
+            Column::left("agree"),
+        ]
+    };
+    let row = |place: Breakdowns| {
+        let names = [place.dial, place.quantity, place.method].map(str::to_owned);
+        let events = place.events.into_iter().flat_map(|event| {
+            let agree = if event.agree { "yes" } else { "NO" };
+            [event.found, event.theory, agree.to_owned()]
+        });
+        names.into_iter().chain(events).collect()
+    };
+    let table = Table::new(
+        columns.into_iter().chain(of_event()).chain(of_event()),
+        breakdowns(stability).map(row),
     );
-    for _ in 0..2 {
-        let _ = write!(out, " {:>8} {:>8} {:5}", "found", "theory", "agree");
-    }
-    out = out.trim_end().to_owned() + "\n";
-    for place in places(report) {
-        let _ = write!(
-            out,
-            "  {:9} {:9} {:10}",
-            place.dial, place.quantity, place.method
-        );
-        for event in &place.events {
-            let verdict = if event.agree { "yes" } else { "NO" };
-            let _ = write!(out, " {:>8} {:>8} {verdict:5}", event.found, event.theory);
-        }
-        out = out.trim_end().to_owned() + "\n";
-    }
-    out
+    Report::new()
+        .words(format!(
+            "where each method breaks down; theory agrees within a factor of {AGREEMENT}"
+        ))
+        .table(
+            table
+                .grouped(&[
+                    ("", 3),
+                    ("first wrong answer", 3),
+                    ("hit moved > ½ pixel", 3),
+                ])
+                .indented(2),
+        )
 }
 
 /// A line of the summary.
-struct Place {
+struct Breakdowns {
     dial: &'static str,
     quantity: &'static str,
     method: &'static str,
@@ -170,19 +186,19 @@ struct Event {
     agree: bool,
 }
 
-fn places(report: &Report) -> impl Iterator<Item = Place> {
-    report.sweeps.iter().flat_map(move |sweep| {
-        (0..report.methods.len()).map(move |method| {
-            let at = report.breakdown(sweep, method);
+fn breakdowns(stability: &Stability) -> impl Iterator<Item = Breakdowns> {
+    stability.sweeps.iter().flat_map(move |sweep| {
+        (0..stability.methods.len()).map(move |method| {
+            let at = stability.breakdown(sweep, method);
             let event = |found: Option<i32>, theory: Option<f64>| Event {
                 found: found.map_or("never".into(), |k| format!("2^{k}")),
                 theory: theory.map_or("never".into(), |k| format!("2^{k:.1}")),
                 agree: agree(found, theory, sweep.dial.step()),
             };
-            Place {
+            Breakdowns {
                 dial: sweep.dial.name,
                 quantity: sweep.dial.quantity,
-                method: report.methods[method].name(),
+                method: stability.methods[method].name(),
                 events: [
                     event(at.wrong, at.wrong_in_theory),
                     event(at.moved, at.moved_in_theory),
@@ -192,135 +208,144 @@ fn places(report: &Report) -> impl Iterator<Item = Place> {
     })
 }
 
-fn checks(report: &Report) -> String {
-    if report.checks.is_empty() {
-        return String::new();
+fn checks(stability: &Stability) -> Report {
+    if stability.checks.is_empty() {
+        return Report::new();
     }
-    let mut out = format!(
-        "\nwhat must hold besides: pass, or on how many rays it fails\n{:37}",
-        ""
-    );
-    for method in &report.methods {
-        let _ = write!(out, " {:>6.6}", method.name());
-    }
-    out.push('\n');
-    for name in invariance::NAMES {
-        let _ = write!(out, "  {name:35}");
-        for check in report.checks.iter().filter(|check| check.name == name) {
-            let _ = write!(out, " {:>6}", verdict(check));
-        }
-        out.push('\n');
-    }
-    out
-}
-
-fn verdict(check: &Check) -> String {
-    match check.failed {
+    // Seven methods beside the longest name leave six columns for each.
+    let method = |method: &Method| Column::right(method.name().chars().take(6).collect::<String>());
+    let verdict = |check: &Check| match check.failed {
         0 => "pass".into(),
-        failed => format!("{failed}"),
-    }
+        failed => failed.to_string(),
+    };
+    Report::new()
+        .gap()
+        .words("what must hold besides: pass, or on how many rays it fails")
+        .table(
+            Table::new(
+                std::iter::once(Column::left("")).chain(stability.methods.iter().map(method)),
+                invariance::NAMES.map(|name| checks_named(stability, name, verdict)),
+            )
+            .indented(2),
+        )
 }
 
-fn promises(report: &Report) -> String {
-    let mut out = String::from("\n");
-    for kept in &report.kept {
-        let _ = writeln!(
-            out,
+/// The name of a check, and its verdict on each method.
+fn checks_named(stability: &Stability, name: &str, verdict: fn(&Check) -> String) -> Vec<String> {
+    let named = stability.checks.iter().filter(|check| check.name == name);
+    std::iter::once(name.to_owned())
+        .chain(named.map(verdict))
+        .collect()
+}
+
+fn promises(stability: &Stability) -> Vec<String> {
+    let mut out = Vec::new();
+    for kept in &stability.kept {
+        out.push(format!(
             "promise of {}: {} of {} answers broke it",
             kept.method, kept.broken, kept.asked
-        );
-        if let Some(problem) = &kept.first {
+        ));
+        out.extend(kept.first.as_ref().map(|problem| {
             let input = numbers(problem).map(hexadecimal).join(" ");
-            out += &paragraph(&format!("  the first: {input}"));
-        }
+            format!("  the first: {input}")
+        }));
     }
-    if !report.complete {
-        out += "Interrupted: what is above is complete, the rest was not measured.\n";
+    if !stability.complete {
+        out.push("Interrupted: what is above is complete, the rest was not measured.".into());
     }
-    let said = if report.promises_kept() {
+    let said = if stability.promises_kept() {
         "kept"
     } else {
         "BROKEN"
     };
-    let _ = writeln!(out, "promises {said}");
+    out.push(format!("promises {said}"));
     out
 }
 
-/// The report in Markdown: the summary, the checks, and a table for each dial.
-pub fn markdown(report: &Report) -> String {
-    let mut out = format!(
-        "seed {}, {} rays a setting\n\n{}\n{}",
-        report.seed,
-        report.rays,
-        summary_table(report),
-        check_table(report)
-    );
-    for sweep in &report.sweeps {
-        let _ = write!(out, "\n### {}\n\n{}\n\n", sweep.dial.name, sweep.dial.about);
-        out += &sweep_table(report, sweep);
-    }
-    let _ = write!(out, "\n```text{}```\n", promises(report));
-    out
+/// The sweeps in Markdown: the summary, the checks, and a table for each dial.
+pub fn markdown(stability: &Stability) -> Report {
+    let start = Report::new()
+        .words(format!(
+            "seed {}, {} rays a setting",
+            stability.seed, stability.rays
+        ))
+        .table(summary_table(stability))
+        .table(check_table(stability));
+    let sweeps = stability.sweeps.iter();
+    sweeps
+        .fold(start, |report, sweep| {
+            report
+                .heading(sweep.dial.name)
+                .words(sweep.dial.about)
+                .table(sweep_table(stability, sweep))
+        })
+        .fixed(promises(stability))
 }
 
-/// The summary as a Markdown table.
-pub fn summary_table(report: &Report) -> String {
-    let mut out = String::from(
-        "| dial | method | first wrong answer | theory | agree | first hit moved > ½ pixel | theory | agree |\n\
-         |---|---|--:|--:|---|--:|--:|---|\n",
-    );
-    for place in places(report) {
-        let _ = write!(
-            out,
-            "| {}, {} | `{}` |",
-            place.dial, place.quantity, place.method
-        );
-        for event in place.events {
+/// The summary for Markdown.
+pub fn summary_table(stability: &Stability) -> Table {
+    let of_event = |name| {
+        [
+            Column::right(name),
+            Column::right("theory"),
+            Column::left("agree"),
+        ]
+    };
+    let row = |place: Breakdowns| {
+        let names = [
+            format!("{}, {}", place.dial, place.quantity),
+            code(place.method),
+        ];
+        let events = place.events.into_iter().flat_map(|event| {
             let agree = if event.agree { "yes" } else { "**no**" };
-            let _ = write!(out, " {} | {} | {agree} |", event.found, event.theory);
-        }
-        out.push('\n');
-    }
-    out
+            [event.found, event.theory, agree.to_owned()]
+        });
+        names.into_iter().chain(events).collect()
+    };
+    Table::new(
+        ["dial", "method"]
+            .map(Column::left)
+            .into_iter()
+            .chain(of_event("first wrong answer"))
+            .chain(of_event("first hit moved > ½ pixel")),
+        breakdowns(stability).map(row),
+    )
 }
 
-/// The checks as a Markdown table.
-pub fn check_table(report: &Report) -> String {
-    let mut out = String::from("| what must hold besides |");
-    for method in &report.methods {
-        let _ = write!(out, " `{method}` |");
-    }
-    let _ = writeln!(out, "\n|---|{}", "--:|".repeat(report.methods.len()));
-    for name in invariance::NAMES {
-        let _ = write!(out, "| {name} |");
-        for check in report.checks.iter().filter(|check| check.name == name) {
-            let said = match check.failed {
-                0 => "pass".to_owned(),
-                failed => format!("fails {failed} of {}", check.rays),
-            };
-            let _ = write!(out, " {said} |");
-        }
-        out.push('\n');
-    }
-    out
+/// The checks for Markdown.
+pub fn check_table(stability: &Stability) -> Table {
+    let verdict = |check: &Check| match check.failed {
+        0 => "pass".to_owned(),
+        failed => format!("fails {failed} of {}", check.rays),
+    };
+    Table::new(
+        by_method(stability, Column::left("what must hold besides")),
+        invariance::NAMES.map(|name| checks_named(stability, name, verdict)),
+    )
 }
 
-/// The settings of one dial as a Markdown table: wrong answers in per cent, bits lost (median/worst),
-/// blame (median/worst).
-pub fn sweep_table(report: &Report, sweep: &Sweep) -> String {
-    let mut out = format!("| {} |", sweep.dial.quantity);
-    for method in &report.methods {
-        let _ = write!(out, " `{method}` |");
-    }
-    let _ = writeln!(out, "\n|--:|{}", "--:|".repeat(report.methods.len()));
-    for step in chosen(sweep) {
-        let _ = write!(out, "| 2^{} |", step.k);
-        for cell in &step.cells {
-            let _ = write!(out, " {} |", in_words(cell, step.census.rays));
-        }
-        out.push('\n');
-    }
-    out
+/// The settings of one dial for Markdown: wrong answers in per cent, bits lost (median/worst), blame
+/// (median/worst).
+pub fn sweep_table(stability: &Stability, sweep: &Sweep) -> Table {
+    let row = |step: &Step| {
+        let found = step
+            .cells
+            .iter()
+            .map(|cell| in_words(cell, step.census.rays));
+        std::iter::once(format!("2^{}", step.k))
+            .chain(found)
+            .collect()
+    };
+    Table::new(
+        by_method(stability, Column::right(sweep.dial.quantity)),
+        chosen(sweep).map(row),
+    )
+}
+
+/// A first column, and one for each method.
+fn by_method(stability: &Stability, first: Column) -> impl Iterator<Item = Column> {
+    let methods = stability.methods.iter();
+    std::iter::once(first).chain(methods.map(|method| Column::right(code(method.name()))))
 }
 
 fn in_words(cell: &Cell, rays: usize) -> String {
