@@ -5,6 +5,7 @@
 //!
 //! * [`system`]: what differs from one operating system to the next
 //! * [`text`]: text as people, programs and files write it: characters, numbers, lines, names
+//! * [`random`]: numbers from a seed, the same on every machine
 //! * [`report`]: what a run found, in sentences and tables, in each format
 //! * [`door`]: files from outside, opened and read safely
 //! * [`geometry`]: rays and spheres, plain data, checked where it comes in
@@ -24,6 +25,7 @@ pub mod explorer;
 pub mod geometry;
 pub mod lab;
 pub mod method;
+pub mod random;
 pub mod render;
 pub mod report;
 pub mod scene;

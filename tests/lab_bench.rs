@@ -265,10 +265,10 @@ fn a_run_that_is_ended_early_reports_what_is_complete() {
         number < 2
     });
     assert!(!report.complete && asked.get() > 3);
-    assert_eq!(report.chapters.len(), 2);
+    assert_eq!(report.sets.len(), 2);
     assert!(
         report
-            .chapters
+            .sets
             .iter()
             .all(|c| c.rows.len() == Method::ALL.len())
     );
@@ -279,16 +279,16 @@ fn a_run_that_is_ended_early_reports_what_is_complete() {
 #[test]
 fn a_method_is_marked_unless_another_is_as_good_in_all_and_better_in_one() {
     let report = bench::run(plan(), &samples(), 1, &SystemClock::new(), |_, _| true);
-    for chapter in &report.chapters {
-        let marked: BTreeSet<&str> = chapter
+    for set in &report.sets {
+        let marked: BTreeSet<&str> = set
             .rows
             .iter()
             .filter(|r| r.pareto)
             .map(|r| r.method)
             .collect();
-        for row in &chapter.rows {
-            let better = chapter.rows.iter().any(|other| {
-                let pair = |r: &bench::Row| {
+        for row in &set.rows {
+            let better = set.rows.iter().any(|other| {
+                let pair = |r: &bench::MeasuredMethod| {
                     (
                         r.errors.wrong.total(),
                         r.errors.ulp.p99,
@@ -303,7 +303,7 @@ fn a_method_is_marked_unless_another_is_as_good_in_all_and_better_in_one() {
                 !better,
                 "{} in {}",
                 row.method,
-                chapter.name
+                set.name
             );
         }
     }

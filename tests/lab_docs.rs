@@ -4,7 +4,7 @@
 use std::fmt::Write as _;
 use std::fs;
 
-use rayscope::lab::bench::{self, BenchPlan, Benchmark, Chapter, Row, Sample};
+use rayscope::lab::bench::{self, BenchPlan, Benchmark, MeasuredMethod, MeasuredSet, Sample};
 use rayscope::lab::stress;
 use rayscope::lab::timing::{Clock, Schedule};
 use rayscope::lab::{Dial, Family, Machine, plot};
@@ -64,12 +64,12 @@ fn quick_stress() -> stress::Stability {
     stress::run(&plan, |_, _| true)
 }
 
-fn details(chapter: &Chapter) -> String {
+fn details(set: &MeasuredSet) -> String {
     format!(
         "\n### {}\n\n{}\n\n{}",
-        chapter.name,
-        chapter.about,
-        bench::error_table(chapter).markdown()
+        set.name,
+        set.about,
+        bench::error_table(set).markdown()
     )
 }
 
@@ -78,16 +78,16 @@ fn the_errors_in_the_docs_are_those_of_the_code_and_their_chart_is_well_formed()
     let report = quick_bench();
     let path = "docs/accuracy.md";
     assert_documented(path, "overview", &bench::error_overview(&report).markdown());
-    let all: String = report.chapters.iter().map(details).collect();
+    let all: String = report.sets.iter().map(details).collect();
     assert_documented(path, "errors", &format!("{all}\n"));
 
     let svg = plot::work_precision(&report, &Machine::detect());
     assert_well_formed(&svg);
-    for chapter in &report.chapters {
-        assert!(svg.contains(&format!(">{}, 2048 rays<", chapter.name)));
+    for set in &report.sets {
+        assert!(svg.contains(&format!(">{}, 2048 rays<", set.name)));
     }
-    let none_right = |row: &Row| row.errors.judged == 0;
-    assert!(report.chapters.iter().flat_map(|c| &c.rows).any(none_right));
+    let none_right = |row: &MeasuredMethod| row.errors.judged == 0;
+    assert!(report.sets.iter().flat_map(|c| &c.rows).any(none_right));
     assert!(svg.contains("TIMES NOT TRUSTED"));
 }
 

@@ -12,7 +12,7 @@ use super::progress::{INTERRUPTED, Progress};
 use super::sweep::SweepArgs;
 use super::{Failure, Outcome, complain, save, whole, write_out};
 use crate::lab::bench::{self, BenchPlan, Benchmark, MOST_TIMED, Sample};
-use crate::lab::frames::{self, FrameSchedule};
+use crate::lab::frames::{self, CellOutput, FrameSchedule};
 use crate::lab::timing::{Schedule, SelfCheck, SystemClock};
 use crate::lab::{BenchLock, BenchQueue, Family, Machine, plot};
 use crate::render::{CELL_ASPECT, ColorDepth, Image, Style, fit};
@@ -139,7 +139,7 @@ fn run_frames(arguments: &BenchArgs) -> Outcome {
     let times = frames::run(
         &schedule,
         &SystemClock::new(),
-        &mut Screen::default(),
+        &mut UnseenScreen::default(),
         |number, name| progress.go_on(number, name),
     );
     progress.clear();
@@ -159,9 +159,9 @@ fn run_frames(arguments: &BenchArgs) -> Outcome {
 
 /// A terminal of 256 colours that nobody looks at.
 #[derive(Default)]
-struct Screen(Painter);
+struct UnseenScreen(Painter);
 
-impl frames::Output for Screen {
+impl CellOutput for UnseenScreen {
     fn show(&mut self, image: &Image) -> usize {
         let mut cells = buffer_of(image, ColorDepth::Ansi256);
         self.0.paint(&mut cells, None, Limits::default()).len()

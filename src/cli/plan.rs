@@ -14,7 +14,7 @@ use crate::explain::{self, PlanLine};
 use crate::explorer::usual_step;
 use crate::method::Method;
 use crate::render::{AnsiColor, CELL_ASPECT, Cell, ColorDepth, Frame, Image, Look, Style, View};
-use crate::report::{self, Column, Field, Format, Report, Table};
+use crate::report::{self, Column, DataColumn, Format, Report, Table};
 use crate::scene::{PixelShape, Rays, Rgb, Scene, Size};
 use crate::terminal::{Capability, Limits, Painter};
 
@@ -253,7 +253,7 @@ fn table(plan: &[PlanLine]) -> Table {
 }
 
 /// The columns of the CSV: of a frame, and of one line of its plan.
-const COLUMNS: [Field<(&'static str, PlanLine)>; 5] = [
+const COLUMNS: [DataColumn<(&'static str, PlanLine)>; 5] = [
     ("frame", |(frame, _)| (*frame).to_owned()),
     ("what", |(_, line)| line.what.trim_start().to_owned()),
     ("kept", |(_, line)| line.kept.to_string()),

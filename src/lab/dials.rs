@@ -4,8 +4,8 @@
 //! method and not the rounding of its inputs; `offset` is there to show that rounding.
 
 use super::Problem;
-use super::families::{Case, aimed, typical, whole_frame};
-use super::random::{Random, power_of_two};
+use super::families::{DrawnCase, aimed, typical, whole_frame};
+use crate::random::{Random, power_of_two};
 
 /// The roots of a ray that was not yet rounded, near and far; none for a miss.
 pub type Intent = Option<[f64; 2]>;
@@ -21,7 +21,7 @@ pub struct Dial {
     pub about: &'static str,
     /// The first k, the last, and the step between them.
     settings: [i32; 3],
-    draw: fn(&mut Random, i32) -> Case,
+    draw: fn(&mut Random, i32) -> DrawnCase,
     pixel: fn(i32) -> f64,
 }
 
@@ -143,7 +143,7 @@ impl Dial {
             .collect()
     }
 
-    fn drawn(&self, seed: u64, k: i32) -> impl Iterator<Item = (Case, Problem)> + use<> {
+    fn drawn(&self, seed: u64, k: i32) -> impl Iterator<Item = (DrawnCase, Problem)> + use<> {
         // The same numbers at every setting: what changes is what the dial changes.
         let mut random = Random::new(seed);
         let draw = self.draw;
@@ -184,7 +184,7 @@ fn thirteen_bits(random: &mut Random) -> f64 {
 
 /// o = −j·u + m·v and d = i·u with u across v in whole numbers of 11 bits and i, j, m of 13: exact
 /// in binary32 at any distance, and the line passes the centre at exactly m·|v|.
-fn distance(random: &mut Random, k: i32) -> Case {
+fn distance(random: &mut Random, k: i32) -> DrawnCase {
     let ([u, v, _], length) = whole_frame(random, 20);
     let miss = thirteen_bits(random) * length;
     let radius = f64::from((miss / random.uniform(0.01, 1.5)) as f32);
@@ -193,7 +193,7 @@ fn distance(random: &mut Random, k: i32) -> Case {
     // The next number of 13 bits below it.
     let unit = leading_power(away) * power_of_two(-12);
     let along = (away / unit).trunc() * unit;
-    Case {
+    DrawnCase {
         origin: u.map(|x| -along * x),
         direction: nearly_unit(u, length, random),
         center: v.map(|x| -miss / length * x),
@@ -210,7 +210,7 @@ fn nearly_unit(u: [f64; 3], length: f64, random: &mut Random) -> [f64; 3] {
 
 /// The surface passes through the world's origin, so that a height far below the spacing of the
 /// centre's coordinates can be written down.
-fn altitude(random: &mut Random, k: i32) -> Case {
+fn altitude(random: &mut Random, k: i32) -> DrawnCase {
     let radius = f64::from(random.uniform(1.0, 2.0) as f32);
     let height = power_of_two(k) * radius;
     let (up, east, north) = axes(random);
@@ -226,7 +226,7 @@ fn altitude(random: &mut Random, k: i32) -> Case {
         (p[up], p[east], p[north]) = (y, x, z);
         p
     };
-    Case {
+    DrawnCase {
         origin: place([height, x, z]),
         direction: place(down),
         center: place([-radius, 0.0, 0.0]),
@@ -241,12 +241,12 @@ fn axes(random: &mut Random) -> (usize, usize, usize) {
 }
 
 /// o = 4m·u + (m ∓ ε)·v and r = m·|v|: the line passes the centre at r·(1 ∓ cos²θ/2), exactly.
-fn tangency(random: &mut Random, k: i32) -> Case {
+fn tangency(random: &mut Random, k: i32) -> DrawnCase {
     let ([u, v, _], length) = whole_frame(random, 20);
     let m = f64::from(random.integer(256, 511));
     let inward = if random.one_in(2) { 1.0 } else { -1.0 };
     let epsilon = inward * m * power_of_two(2 * k - 1);
-    Case {
+    DrawnCase {
         origin: v.map(|x| -epsilon * x),
         direction: nearly_unit(u, length, random),
         center: [0, 1, 2].map(|i| -m * (4.0 * u[i] + v[i])),
@@ -254,7 +254,7 @@ fn tangency(random: &mut Random, k: i32) -> Case {
     }
 }
 
-fn offset(random: &mut Random, k: i32) -> Case {
+fn offset(random: &mut Random, k: i32) -> DrawnCase {
     let radius = random.uniform(0.5, 2.0);
     let distance = radius * random.uniform(2.0, 12.0);
     // Not so near a tangent that a method may fail without any offset.
@@ -273,10 +273,10 @@ fn offset(random: &mut Random, k: i32) -> Case {
 }
 
 /// Typical rays in binary32, then scaled: what the scale changes is the scale alone.
-fn rounded_typical(random: &mut Random) -> Case {
+fn rounded_typical(random: &mut Random) -> DrawnCase {
     let case = typical(random);
     let single = |v: [f64; 3]| v.map(|x| f64::from(x as f32));
-    Case {
+    DrawnCase {
         origin: single(case.origin),
         direction: single(case.direction),
         center: single(case.center),
@@ -284,7 +284,7 @@ fn rounded_typical(random: &mut Random) -> Case {
     }
 }
 
-fn scale(random: &mut Random, k: i32) -> Case {
+fn scale(random: &mut Random, k: i32) -> DrawnCase {
     let mut case = rounded_typical(random);
     let factor = power_of_two(k);
     case.origin = case.origin.map(|x| factor * x);
@@ -293,7 +293,7 @@ fn scale(random: &mut Random, k: i32) -> Case {
     case
 }
 
-fn length(random: &mut Random, k: i32) -> Case {
+fn length(random: &mut Random, k: i32) -> DrawnCase {
     let mut case = rounded_typical(random);
     case.direction = case.direction.map(|x| power_of_two(k) * x);
     case

@@ -6,7 +6,7 @@ use std::ops::AddAssign;
 use serde::Serialize;
 
 use super::Problem;
-use super::reference::{Reference, Root};
+use super::reference::{Reference, ReferenceRoot};
 use crate::geometry::{Ray, Sphere};
 use crate::method::{Class, Solution};
 
@@ -92,7 +92,7 @@ fn judge_roots(truth: &Reference, answer: &Solution) -> Judgement {
     Judgement::Agreed(worse)
 }
 
-fn judge_root(root: &Root, answer: f32) -> Result<Option<RootError>, Fault> {
+fn judge_root(root: &ReferenceRoot, answer: f32) -> Result<Option<RootError>, Fault> {
     if answer.is_infinite() && answer == root.rounded {
         Ok(None)
     } else if answer.is_finite() {
@@ -108,7 +108,7 @@ fn judge_root(root: &Root, answer: f32) -> Result<Option<RootError>, Fault> {
 
 /// Numbers of rays, by what is wrong with the answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
-pub struct Wrong {
+pub struct FaultCounts {
     /// Of the rays that miss: those said to meet the sphere.
     pub false_hit: usize,
     /// Of the rays that meet the sphere: those said to miss.
@@ -119,7 +119,7 @@ pub struct Wrong {
     pub not_finite: usize,
 }
 
-impl Wrong {
+impl FaultCounts {
     /// The number of rays with this fault.
     pub const fn of(&self, fault: Fault) -> usize {
         match fault {
@@ -136,7 +136,7 @@ impl Wrong {
     }
 }
 
-impl AddAssign<Fault> for Wrong {
+impl AddAssign<Fault> for FaultCounts {
     fn add_assign(&mut self, fault: Fault) {
         *match fault {
             Fault::FalseHit => &mut self.false_hit,
@@ -232,7 +232,7 @@ pub struct Worst {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Errors {
     /// Wrong answers by kind.
-    pub wrong: Wrong,
+    pub wrong: FaultCounts,
     /// The first wrong answer of the set: what was asked, and what is wrong.
     pub first_wrong: Option<(Problem, Fault)>,
     /// The error of the worse root, over the rays where method and truth agree that there are

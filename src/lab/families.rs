@@ -5,8 +5,8 @@
 
 use glam::Vec3;
 
-use super::random::{Random, power_of_two};
 use crate::geometry::{Ray, Sphere};
+use crate::random::{Random, power_of_two};
 
 /// A named kind of rays.
 #[derive(Debug, Clone, Copy)]
@@ -15,18 +15,18 @@ pub struct Family {
     pub name: &'static str,
     /// One sentence on what its rays are.
     pub about: &'static str,
-    draw: fn(&mut Random) -> Case,
+    draw: fn(&mut Random) -> DrawnCase,
 }
 
 /// A ray and a sphere before they are rounded to binary32.
-pub(super) struct Case {
+pub(super) struct DrawnCase {
     pub origin: [f64; 3],
     pub direction: [f64; 3],
     pub center: [f64; 3],
     pub radius: f64,
 }
 
-impl Case {
+impl DrawnCase {
     /// The ray and sphere in binary32, if they are a ray and a sphere.
     pub fn rounded(&self) -> Option<(Ray, Sphere)> {
         let vector = |v: [f64; 3]| Vec3::from(v.map(|x| x as f32));
@@ -114,11 +114,11 @@ pub(super) fn aimed(
     radius: f64,
     distance: f64,
     miss: f64,
-) -> Case {
+) -> DrawnCase {
     let forward = random.unit_vector();
     let side = perpendicular(forward, random.unit_vector());
     let along = (distance * distance - miss * miss).abs().sqrt();
-    Case {
+    DrawnCase {
         origin: [0, 1, 2].map(|i| center[i] + miss * side[i] - along * forward[i]),
         direction: forward,
         center,
@@ -138,7 +138,7 @@ fn dot(u: [f64; 3], v: [f64; 3]) -> f64 {
     u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 }
 
-pub(super) fn typical(random: &mut Random) -> Case {
+pub(super) fn typical(random: &mut Random) -> DrawnCase {
     let center = [0; 3].map(|_| random.uniform(-10.0, 10.0));
     let radius = random.uniform(0.5, 2.0);
     let distance = radius * random.uniform(2.0, 12.0);
@@ -146,7 +146,7 @@ pub(super) fn typical(random: &mut Random) -> Case {
     aimed(random, center, radius, distance, miss)
 }
 
-fn inside(random: &mut Random) -> Case {
+fn inside(random: &mut Random) -> DrawnCase {
     let center = [0; 3].map(|_| random.uniform(-10.0, 10.0));
     let radius = random.uniform(0.5, 2.0);
     let distance = radius * random.uniform(0.0, 1.0);
@@ -154,21 +154,21 @@ fn inside(random: &mut Random) -> Case {
     aimed(random, center, radius, distance, miss)
 }
 
-fn far_4e3(random: &mut Random) -> Case {
+fn far_4e3(random: &mut Random) -> DrawnCase {
     far(random, 4e3)
 }
 
-fn far_1e6(random: &mut Random) -> Case {
+fn far_1e6(random: &mut Random) -> DrawnCase {
     far(random, 1e6)
 }
 
-fn far(random: &mut Random, distance: f64) -> Case {
+fn far(random: &mut Random, distance: f64) -> DrawnCase {
     let radius = random.uniform(0.5, 2.0);
     let miss = radius * random.uniform(0.0, 1.5);
     aimed(random, [0.0; 3], radius, radius * distance, miss)
 }
 
-fn grazing(random: &mut Random) -> Case {
+fn grazing(random: &mut Random) -> DrawnCase {
     let radius = random.uniform(0.5, 2.0);
     let distance = radius * random.uniform(2.0, 12.0);
     let miss = radius * (1.0 + random.uniform(-1e-7, 1e-7));
@@ -205,12 +205,12 @@ pub(super) fn whole_frame(random: &mut Random, size: i32) -> ([[f64; 3]; 3], f64
 }
 
 /// A tangent in whole numbers: o = m·v + j·u, d = k·u, r = m·|v|, with u across v.
-fn tangent(random: &mut Random) -> Case {
+fn tangent(random: &mut Random) -> DrawnCase {
     let size = random.integer(1, 4);
     let ([u, v, _], length) = whole_frame(random, size);
     let [m, j, k] = [9, 20, 5].map(|most| f64::from(random.integer(-most, most)));
     let center = [0; 3].map(|_| f64::from(random.integer(-20, 20)));
-    Case {
+    DrawnCase {
         origin: [0, 1, 2].map(|i| center[i] + m * v[i] + j * u[i]),
         direction: u.map(|x| k * x),
         center,
@@ -218,7 +218,7 @@ fn tangent(random: &mut Random) -> Case {
     }
 }
 
-fn tangent_ulp(random: &mut Random) -> Case {
+fn tangent_ulp(random: &mut Random) -> DrawnCase {
     let mut case = tangent(random);
     let moved = |x: f64, up: bool| {
         let x = x as f32;
@@ -235,7 +235,7 @@ fn tangent_ulp(random: &mut Random) -> Case {
     case
 }
 
-fn tangent_wide(random: &mut Random) -> Case {
+fn tangent_wide(random: &mut Random) -> DrawnCase {
     let [across, along, direction] = [
         random.log_uniform(-100, 100),
         random.log_uniform(-120, 120),
@@ -243,7 +243,7 @@ fn tangent_wide(random: &mut Random) -> Case {
     ];
     let axes = [random.integer(0, 2) as usize, random.integer(1, 2) as usize];
     let (x, y) = (axes[0], (axes[0] + axes[1]) % 3);
-    let mut case = Case {
+    let mut case = DrawnCase {
         origin: [0.0; 3],
         direction: [0.0; 3],
         center: [0.0; 3],
@@ -258,11 +258,11 @@ fn tangent_wide(random: &mut Random) -> Case {
     case
 }
 
-fn surface(random: &mut Random) -> Case {
+fn surface(random: &mut Random) -> DrawnCase {
     let center = [0; 3].map(|_| random.uniform(-10.0, 10.0));
     let radius = random.uniform(0.5, 2.0);
     let normal = random.unit_vector();
-    Case {
+    DrawnCase {
         origin: [0, 1, 2].map(|i| center[i] + radius * normal[i]),
         direction: random.unit_vector(),
         center,
@@ -270,11 +270,11 @@ fn surface(random: &mut Random) -> Case {
     }
 }
 
-fn surface_exact(random: &mut Random) -> Case {
+fn surface_exact(random: &mut Random) -> DrawnCase {
     let ([_, v, _], length) = whole_frame(random, 3);
     let m = f64::from(random.integer(1, 9));
     let center = [0; 3].map(|_| f64::from(random.integer(-20, 20)));
-    Case {
+    DrawnCase {
         origin: [0, 1, 2].map(|i| center[i] + m * v[i]),
         direction: [0; 3].map(|_| f64::from(random.integer(-9, 9))),
         center,
@@ -282,10 +282,10 @@ fn surface_exact(random: &mut Random) -> Case {
     }
 }
 
-fn ground(random: &mut Random) -> Case {
+fn ground(random: &mut Random) -> DrawnCase {
     let height = 2.0 * power_of_two(random.integer(-20, 0)) * random.uniform(0.5, 1.0);
     let direction = random.unit_vector();
-    Case {
+    DrawnCase {
         origin: [random.uniform(-10.0, 10.0), height, 0.0],
         direction: [direction[0], -direction[1].abs(), direction[2]],
         center: [0.0, -1e6, 0.0],
@@ -293,10 +293,10 @@ fn ground(random: &mut Random) -> Case {
     }
 }
 
-fn huge_radius(random: &mut Random) -> Case {
+fn huge_radius(random: &mut Random) -> DrawnCase {
     let radius = random.log_uniform(20, 100).abs();
     let normal = random.unit_vector();
-    Case {
+    DrawnCase {
         origin: [0; 3].map(|_| random.uniform(-10.0, 10.0)),
         direction: random.unit_vector(),
         center: normal.map(|x| radius * x),
@@ -304,7 +304,7 @@ fn huge_radius(random: &mut Random) -> Case {
     }
 }
 
-fn tiny_radius(random: &mut Random) -> Case {
+fn tiny_radius(random: &mut Random) -> DrawnCase {
     let radius = random.log_uniform(-100, -10).abs();
     let distance = random.uniform(1.0, 10.0);
     let miss = radius * random.uniform(0.0, 1.5);
@@ -317,7 +317,7 @@ fn tiny_radius(random: &mut Random) -> Case {
     case
 }
 
-fn point(random: &mut Random) -> Case {
+fn point(random: &mut Random) -> DrawnCase {
     let ([u, v, _], _) = whole_frame(random, 2);
     let j = f64::from(random.integer(-20, 20));
     let off = match random.below(3) {
@@ -325,7 +325,7 @@ fn point(random: &mut Random) -> Case {
         1 => power_of_two(random.integer(-149, 0)),
         _ => f64::from(random.integer(-1, 1)),
     };
-    Case {
+    DrawnCase {
         origin: [0, 1, 2].map(|i| j * u[i] + off * v[i]),
         direction: u,
         center: [0.0; 3],
@@ -333,7 +333,7 @@ fn point(random: &mut Random) -> Case {
     }
 }
 
-fn offset(random: &mut Random) -> Case {
+fn offset(random: &mut Random) -> DrawnCase {
     let away = [0; 3].map(|_| random.uniform(1e6, 1e7));
     let mut case = typical(random);
     case.origin = [0, 1, 2].map(|i| case.origin[i] + away[i]);
@@ -341,9 +341,9 @@ fn offset(random: &mut Random) -> Case {
     case
 }
 
-fn integers(random: &mut Random) -> Case {
+fn integers(random: &mut Random) -> DrawnCase {
     let size = [3, 10, 100][random.below(3) as usize];
-    Case {
+    DrawnCase {
         origin: [0; 3].map(|_| f64::from(random.integer(-size, size))),
         direction: [0; 3].map(|_| f64::from(random.integer(-3, 3))),
         center: [0; 3].map(|_| f64::from(random.integer(-size, size))),
@@ -351,14 +351,14 @@ fn integers(random: &mut Random) -> Case {
     }
 }
 
-fn ties(random: &mut Random) -> Case {
+fn ties(random: &mut Random) -> DrawnCase {
     let axis = random.below(3) as usize;
     let scale = power_of_two(random.integer(-60, 60));
     let speed = power_of_two(random.integer(-30, 30));
     // Whole numbers of 25 bits; odd ones are half way between two binary32.
     let along = f64::from(random.integer(1 << 24, 1 << 25));
     let radius = f64::from(random.integer(0, 3));
-    let mut case = Case {
+    let mut case = DrawnCase {
         origin: [0.0; 3],
         direction: [0.0; 3],
         center: [0.0; 3],
@@ -374,14 +374,14 @@ fn ties(random: &mut Random) -> Case {
     case
 }
 
-fn scaled_direction(random: &mut Random) -> Case {
+fn scaled_direction(random: &mut Random) -> DrawnCase {
     let mut case = typical(random);
     let factor = power_of_two(random.integer(-140, 120)) * random.uniform(1.0, 2.0);
     case.direction = case.direction.map(|x| factor * x);
     case
 }
 
-fn scaled(random: &mut Random) -> Case {
+fn scaled(random: &mut Random) -> DrawnCase {
     let mut case = typical(random);
     let factor = power_of_two(random.integer(-100, 100));
     case.origin = case.origin.map(|x| factor * x);
@@ -390,7 +390,7 @@ fn scaled(random: &mut Random) -> Case {
     case
 }
 
-fn overflow(random: &mut Random) -> Case {
+fn overflow(random: &mut Random) -> DrawnCase {
     let near_the_end = |random: &mut Random| random.log_uniform(120, 127);
     let origin = [0; 3].map(|_| near_the_end(random));
     let center = [0; 3].map(|_| near_the_end(random));
@@ -400,7 +400,7 @@ fn overflow(random: &mut Random) -> Case {
     } else {
         [0, 1, 2].map(|i| (center[i] - origin[i]) * pull)
     };
-    Case {
+    DrawnCase {
         origin,
         direction,
         center,
@@ -408,7 +408,7 @@ fn overflow(random: &mut Random) -> Case {
     }
 }
 
-fn subnormal(random: &mut Random) -> Case {
+fn subnormal(random: &mut Random) -> DrawnCase {
     let least = power_of_two(-149);
     let sizes = [5, 100, 1 << 23];
     let size = sizes[random.below(3) as usize];
@@ -422,7 +422,7 @@ fn subnormal(random: &mut Random) -> Case {
     } else {
         power_of_two(random.integer(0, 250))
     };
-    Case {
+    DrawnCase {
         origin,
         direction: direction.map(|x| x * factor),
         center,
@@ -430,9 +430,9 @@ fn subnormal(random: &mut Random) -> Case {
     }
 }
 
-fn log_uniform(random: &mut Random) -> Case {
+fn log_uniform(random: &mut Random) -> DrawnCase {
     let mut any = || random.log_uniform(-27, 26);
-    Case {
+    DrawnCase {
         origin: [0; 3].map(|_| any()),
         direction: [0; 3].map(|_| any()),
         center: [0; 3].map(|_| any()),
@@ -440,9 +440,9 @@ fn log_uniform(random: &mut Random) -> Case {
     }
 }
 
-fn bits(random: &mut Random) -> Case {
+fn bits(random: &mut Random) -> DrawnCase {
     let mut any = || f64::from(random.any_single());
-    Case {
+    DrawnCase {
         origin: [0; 3].map(|_| any()),
         direction: [0; 3].map(|_| any()),
         center: [0; 3].map(|_| any()),
@@ -450,7 +450,7 @@ fn bits(random: &mut Random) -> Case {
     }
 }
 
-fn sparse_bits(random: &mut Random) -> Case {
+fn sparse_bits(random: &mut Random) -> DrawnCase {
     let middle = random.integer(-100, 100);
     let mut sparse = |middle: i32| {
         let fraction = match random.below(4) {
@@ -464,7 +464,7 @@ fn sparse_bits(random: &mut Random) -> Case {
         let sign = (random.bits() as u32) << 31;
         f64::from(f32::from_bits(sign | exponent << 23 | fraction))
     };
-    Case {
+    DrawnCase {
         origin: [0; 3].map(|_| sparse(middle)),
         direction: [0; 3].map(|_| sparse(0)),
         center: [0; 3].map(|_| sparse(middle)),

@@ -11,11 +11,11 @@ use std::hint::black_box;
 
 use glam::{DVec3, Vec3};
 
-use super::Random;
 use super::errors::nearest_rank;
 use super::timing::Clock;
 use crate::geometry::Sphere;
 use crate::method::Method;
+use crate::random::Random;
 use crate::render::{ColorDepth, Frame, Image, Look, Style, View};
 use crate::scene::{Body, Camera, PixelShape, Projection, Rays, Scene, Size};
 
@@ -61,7 +61,7 @@ pub fn scene(count: usize, seed: u64) -> Scene {
 }
 
 /// Where the cells of a picture go.
-pub trait Output {
+pub trait CellOutput {
     /// Compares a picture with what is shown and writes the difference; how many bytes that took.
     fn show(&mut self, image: &Image) -> usize;
 }
@@ -189,7 +189,7 @@ impl FrameTimes {
 pub fn run(
     schedule: &FrameSchedule,
     clock: &dyn Clock,
-    output: &mut dyn Output,
+    output: &mut dyn CellOutput,
     mut go_on: impl FnMut(usize, &str) -> bool,
 ) -> FrameTimes {
     let mut report = FrameTimes {
@@ -239,7 +239,11 @@ struct Harness<'a> {
 
 impl Harness<'_> {
     /// All times of a row; none if `go_on` said no. `smaller` is the row of fewer spheres.
-    fn measure(&mut self, output: &mut dyn Output, smaller: Option<FrameRow>) -> Option<FrameRow> {
+    fn measure(
+        &mut self,
+        output: &mut dyn CellOutput,
+        smaller: Option<FrameRow>,
+    ) -> Option<FrameRow> {
         let mut frame = Frame::new();
         let (scenes, rays, method) = (self.scenes, self.rays, self.method);
         let with_plan = self.time(3, |i| {
@@ -366,7 +370,7 @@ impl Harness<'_> {
     }
 
     /// Medians of cells, of comparing them and of writing them; and the bytes of a frame.
-    fn time_output(&mut self, frame: &mut Frame, output: &mut dyn Output) -> Option<[f64; 4]> {
+    fn time_output(&mut self, frame: &mut Frame, output: &mut dyn CellOutput) -> Option<[f64; 4]> {
         let look = Look {
             style: Style::Half,
             depth: ColorDepth::Ansi256,
@@ -432,7 +436,7 @@ mod tests {
 
     struct Nowhere;
 
-    impl Output for Nowhere {
+    impl CellOutput for Nowhere {
         fn show(&mut self, image: &Image) -> usize {
             image.cells.len()
         }

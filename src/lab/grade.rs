@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::bench::text::{brief, error_lines};
-use super::errors::{Census, Errors, Percentiles, Worst, Wrong};
+use super::errors::{Census, Errors, FaultCounts, Percentiles, Worst};
 use super::numbers;
 use super::{Problem, Reference};
 use crate::method::format::binary32;
@@ -69,8 +69,8 @@ const CLAIMED: &str = "given";
 
 /// The grade as text, with the inputs of the worst and the first wrong claim.
 pub fn text(grade: &Grade) -> Report {
-    let ours = grade.ours.iter().map(|(m, errors)| ("", m.name(), errors));
-    let rows: Vec<_> = std::iter::once((">", CLAIMED, &grade.claimed))
+    let ours = grade.ours.iter().map(|(m, errors)| (' ', m.name(), errors));
+    let rows: Vec<_> = std::iter::once(('>', CLAIMED, &grade.claimed))
         .chain(ours)
         .collect();
     let errors = &grade.claimed;
@@ -113,18 +113,18 @@ fn input(sentence: String, problem: &Problem) -> Report {
 }
 
 #[derive(Serialize)]
-struct Document {
+struct GradeJson {
     rayscope: &'static str,
     #[serde(flatten)]
     census: Census,
-    results: Vec<Entry>,
+    results: Vec<AnswersJson>,
 }
 
 #[derive(Serialize)]
-struct Entry {
+struct AnswersJson {
     method: &'static str,
     rays: usize,
-    wrong: Wrong,
+    wrong: FaultCounts,
     judged: usize,
     ulp: Percentiles,
     worst_input: Option<[String; 10]>,
@@ -132,7 +132,7 @@ struct Entry {
     first_wrong_input: Option<[String; 10]>,
 }
 
-impl Entry {
+impl AnswersJson {
     fn of(method: &'static str, rays: usize, errors: &Errors) -> Self {
         let input = |problem: &Problem| numbers(problem).map(hexadecimal);
         let first = errors.first_wrong.as_ref();
@@ -153,11 +153,11 @@ impl Entry {
 pub fn json(grade: &Grade) -> String {
     let rays = grade.census.rays;
     let ours = grade.ours.iter();
-    report::json(&Document {
+    report::json(&GradeJson {
         rayscope: env!("CARGO_PKG_VERSION"),
         census: grade.census,
-        results: std::iter::once(Entry::of(CLAIMED, rays, &grade.claimed))
-            .chain(ours.map(|(method, errors)| Entry::of(method.name(), rays, errors)))
+        results: std::iter::once(AnswersJson::of(CLAIMED, rays, &grade.claimed))
+            .chain(ours.map(|(method, errors)| AnswersJson::of(method.name(), rays, errors)))
             .collect(),
     })
 }

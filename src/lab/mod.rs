@@ -14,7 +14,6 @@ mod machine;
 pub mod picture;
 pub mod plot;
 pub mod promise;
-mod random;
 mod reference;
 pub mod stress;
 pub mod timing;
@@ -24,12 +23,11 @@ pub use bench_lock::{BenchLock, BenchQueue, BenchWait};
 pub use case::{Case, CaseForm, HEADER};
 pub use dials::Dial;
 pub use errors::{
-    Census, Checksum, Errors, Fault, Judgement, Percentiles, RootError, Worst, Wrong, judge,
+    Census, Checksum, Errors, Fault, FaultCounts, Judgement, Percentiles, RootError, Worst, judge,
 };
 pub use families::Family;
 pub use machine::Machine;
-pub use random::Random;
-pub use reference::{Reference, Root};
+pub use reference::{Reference, ReferenceRoot};
 pub use turn::Turn;
 
 use crate::geometry::{Ray, Sphere};

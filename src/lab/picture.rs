@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use super::bench::{self, BenchPlan, Benchmark, MOST_TIMED, Sample};
 use super::bench_lock::{BenchQueue, BenchWait};
-use super::errors::{Fault, Percentiles, Wrong};
+use super::errors::{Fault, FaultCounts, Percentiles};
 use super::timing::{Schedule, SystemClock};
 use crate::method::{Method, root_bits_lost};
 use crate::render::{Contact, Frame, Hit, View};
@@ -47,7 +47,7 @@ pub struct PictureErrors {
     /// All pixels.
     pub pixels: usize,
     /// Wrong answers by kind.
-    pub wrong: Wrong,
+    pub wrong: FaultCounts,
     /// Pixels that show another sphere than the nearest.
     pub other_sphere: usize,
     /// Pixels that show the right sphere at a root that has not one right bit.
@@ -269,6 +269,6 @@ mod tests {
         let draw = |cancel| chart(&scene, &rays, &queue, cancel, |_| ());
         assert_eq!(draw(&cancelled).unwrap_err(), NoChart::Cancelled);
         let report = draw(&AtomicBool::new(false)).unwrap();
-        assert_eq!(report.chapters[0].census.rays, 1600);
+        assert_eq!(report.sets[0].census.rays, 1600);
     }
 }

@@ -2,7 +2,7 @@
 //! bounds for `double`.
 
 use super::Problem;
-use super::reference::{Reference, Root};
+use super::reference::{Reference, ReferenceRoot};
 use crate::method::{Class, Method, Solution};
 
 /// u = 2⁻⁵³, the unit roundoff of binary64.
@@ -11,8 +11,8 @@ const U: f64 = f64::EPSILON / 2.0;
 /// Whether the answer of a method is what it promises; none for methods that promise nothing.
 ///
 /// * `exact`: the class is right, and both roots are the exact roots rounded once.
-/// * `double`: the class is right if |D| > [`Bounds::class`], and where it is, each root is at most
-///   [`Bounds::root`] and the rounding to binary32 away.
+/// * `double`: the class is right if |D| > [`ErrorBounds::class`], and where it is, each root is at most
+///   [`ErrorBounds::root`] and the rounding to binary32 away.
 pub fn kept(
     method: Method,
     problem: &Problem,
@@ -21,7 +21,7 @@ pub fn kept(
 ) -> Option<bool> {
     match method {
         Method::Exact => Some(exact(truth, answer)),
-        Method::Double => Some(double(&Bounds::new(problem, truth), truth, answer)),
+        Method::Double => Some(double(&ErrorBounds::new(problem, truth), truth, answer)),
         _ => None,
     }
 }
@@ -32,7 +32,7 @@ fn exact(truth: &Reference, answer: &Solution) -> bool {
     answer.class == expected.class && (!expected.class.meets() || bits(answer) == bits(&expected))
 }
 
-fn double(bounds: &Bounds, truth: &Reference, answer: &Solution) -> bool {
+fn double(bounds: &ErrorBounds, truth: &Reference, answer: &Solution) -> bool {
     if answer.class != truth.class {
         return answer.class != Class::Nan && truth.quarter_discriminant.abs() <= bounds.class;
     }
@@ -43,14 +43,14 @@ fn double(bounds: &Bounds, truth: &Reference, answer: &Solution) -> bool {
 }
 
 /// Whether a binary32 is the rounding of some number no farther than `bound` from the root.
-fn is_within(root: &Root, answer: f32, bound: f64) -> bool {
+fn is_within(root: &ReferenceRoot, answer: f32, bound: f64) -> bool {
     let [least, greatest] = [-bound, bound].map(|shift| (root.value() + shift) as f32);
     (least..=greatest).contains(&answer)
 }
 
 /// How far `double` may be off for one ray and sphere, u = 2⁻⁵³.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bounds {
+pub struct ErrorBounds {
     /// Of |D|: 8u·(A r² + K² + K·‖o‖·√A + 2u·A·‖o‖²) with K = ‖o × d‖.
     pub class: f64,
     /// Of t, before it is rounded to binary32: 32u·(‖o‖·r + r² + u·‖o‖²)/√D, and for a tangent
@@ -58,7 +58,7 @@ pub struct Bounds {
     pub root: f64,
 }
 
-impl Bounds {
+impl ErrorBounds {
     /// The bounds for a problem whose truth is known.
     pub fn new((ray, sphere): &Problem, truth: &Reference) -> Self {
         let o = ray.origin.as_dvec3() - sphere.center.as_dvec3();
@@ -109,7 +109,7 @@ mod tests {
     /// `double` with its root in error by `factor` times what is promised.
     fn worse_double(problem: &Problem, factor: f64) -> Solution {
         let truth = Reference::new(problem);
-        let bound = Bounds::new(problem, &truth).root;
+        let bound = ErrorBounds::new(problem, &truth).root;
         match truth.roots {
             None => Solution::MISS,
             Some(roots) => {
@@ -138,7 +138,7 @@ mod tests {
         // A class bound that excuses everything, or a root bound of many ulps, promises nothing.
         for problem in Family::ALL[0].sample(1, 100) {
             let truth = Reference::new(&problem);
-            let bounds = Bounds::new(&problem, &truth);
+            let bounds = ErrorBounds::new(&problem, &truth);
             let [a, r] = [problem.0.direction.length_squared(), problem.1.radius];
             assert!(bounds.class < 1e-12 * f64::from(a * r * r));
             if let Some([_, far]) = truth.roots {

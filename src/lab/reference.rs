@@ -3,6 +3,7 @@
 
 use super::Problem;
 use crate::method::{Class, Precision, Solution, Surd, Truth, Which};
+use crate::random::power_of_two;
 
 /// The exact class and, unless it is a miss, both exact roots.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,14 +13,14 @@ pub struct Reference {
     /// D = Δ/4, rounded once to binary64.
     pub quarter_discriminant: f64,
     /// The near and the far root.
-    pub roots: Option<[Root; 2]>,
+    pub roots: Option<[ReferenceRoot; 2]>,
     /// The class, where the sphere lies, and both roots rounded once to binary32.
     pub solution: Solution,
 }
 
 /// An exact root, to more than a hundred bits.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Root {
+pub struct ReferenceRoot {
     /// The root rounded to binary64.
     high: f64,
     /// What that leaves of it, rounded to binary64.
@@ -36,7 +37,7 @@ impl Reference {
     /// The truth about one problem.
     pub fn new((ray, sphere): &Problem) -> Self {
         let truth = Truth::new(ray, sphere);
-        let root = |root: Option<Surd>| root.map(|root| Root::new(&truth, &root));
+        let root = |root: Option<Surd>| root.map(|root| ReferenceRoot::new(&truth, &root));
         Self {
             class: truth.class(),
             solution: truth.solution(),
@@ -72,7 +73,7 @@ impl Reference {
     };
 
     /// The root that is seen: the least t > 0.
-    pub fn visible(&self) -> Option<&Root> {
+    pub fn visible(&self) -> Option<&ReferenceRoot> {
         let [near, far] = self.roots.as_ref()?;
         Some(match self.solution.place()?.visible_root()? {
             Which::Near => near,
@@ -81,7 +82,7 @@ impl Reference {
     }
 }
 
-impl Root {
+impl ReferenceRoot {
     fn new(truth: &Truth, root: &Surd) -> Self {
         let high = root.to_f64();
         // A root of binary32 inputs is far from both ends of binary64: `high` is finite.
@@ -89,7 +90,7 @@ impl Root {
         Self {
             high,
             low: rest.map_or(0.0, |rest| rest.to_f64()),
-            ulp: power_of_two(root.ulp_exponent(Precision::Binary32)),
+            ulp: power_of_two(root.ulp_exponent(Precision::Binary32) as i32),
             rounded: root.to_f32(),
             condition: truth.condition(root),
         }
@@ -123,8 +124,3 @@ impl Root {
 
 /// u = 2⁻²⁴, the unit roundoff of binary32.
 const UNIT_ROUNDOFF: f64 = f32::EPSILON as f64 / 2.0;
-
-/// 2^k for the exponents that spacings of binary32 have.
-fn power_of_two(k: i64) -> f64 {
-    super::random::power_of_two(k as i32)
-}

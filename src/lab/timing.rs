@@ -9,10 +9,10 @@ use serde::Serialize;
 use super::Problem;
 use super::errors::nearest_rank;
 use super::numbers;
-use super::random::Random;
 use crate::geometry::{Ray, Sphere};
 use crate::method::batch::{Batch, Solutions};
 use crate::method::{Class, Method, Solution};
+use crate::random::Random;
 
 /// Where times come from; a test brings a clock of its own.
 pub trait Clock {

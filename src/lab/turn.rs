@@ -3,8 +3,8 @@
 use glam::{DVec3, Vec3};
 
 use super::Dial;
-use super::random::power_of_two;
 use crate::geometry::Sphere;
+use crate::random::power_of_two;
 use crate::scene::{Projection, Scene};
 
 /// A dial, and how far it is turned on a scene.

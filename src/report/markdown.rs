@@ -2,24 +2,24 @@
 
 use std::fmt::Write as _;
 
-use super::{Align, Part, Table};
+use super::{Align, ReportPart, Table};
 use crate::text::paragraph;
 
 /// A part with its line end; parts are an empty line apart.
-pub(super) fn part(part: &Part) -> Option<String> {
+pub(super) fn part(part: &ReportPart) -> Option<String> {
     Some(match part {
-        Part::Heading(text) => format!("### {text}\n"),
+        ReportPart::Heading(text) => format!("### {text}\n"),
         // Two blanks at the end of a line keep the next one from joining it.
-        Part::Lines(lines) if lines.is_empty() => return None,
-        Part::Lines(lines) => lines.join("  \n") + "\n",
-        Part::Fixed(lines) => {
+        ReportPart::Lines(lines) if lines.is_empty() => return None,
+        ReportPart::Lines(lines) => lines.join("  \n") + "\n",
+        ReportPart::Fixed(lines) => {
             let lines: String = lines.iter().map(|line| paragraph(line)).collect();
             format!("```text\n{lines}```\n")
         }
-        Part::Items(items) if items.is_empty() => return None,
-        Part::Items(items) => format!("* {}\n", items.join("\n* ")),
-        Part::Table(table) => table.markdown(),
-        Part::Gap => return None,
+        ReportPart::Items(items) if items.is_empty() => return None,
+        ReportPart::Items(items) => format!("* {}\n", items.join("\n* ")),
+        ReportPart::Table(table) => table.markdown(),
+        ReportPart::Gap => return None,
     })
 }
 

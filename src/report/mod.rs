@@ -41,11 +41,11 @@ impl Format {
 /// What people read, from top to bottom.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Report {
-    parts: Vec<Part>,
+    parts: Vec<ReportPart>,
 }
 
 #[derive(Debug, Clone, PartialEq, Eq)]
-enum Part {
+enum ReportPart {
     Heading(String),
     Lines(Vec<String>),
     Fixed(Vec<String>),
@@ -63,7 +63,7 @@ impl Report {
     /// Adds a heading.
     #[must_use]
     pub fn heading(self, text: impl Into<String>) -> Self {
-        self.with(Part::Heading(text.into()))
+        self.with(ReportPart::Heading(text.into()))
     }
 
     /// Adds a sentence.
@@ -75,31 +75,33 @@ impl Report {
     /// Adds sentences, each on a line of its own. Their blanks at the left indent the text.
     #[must_use]
     pub fn lines<T: Into<String>>(self, lines: impl IntoIterator<Item = T>) -> Self {
-        self.with(Part::Lines(lines.into_iter().map(Into::into).collect()))
+        self.with(ReportPart::Lines(
+            lines.into_iter().map(Into::into).collect(),
+        ))
     }
 
     /// Adds lines that Markdown shows as they are, letter by letter.
     #[must_use]
     pub fn fixed(self, lines: Vec<String>) -> Self {
-        self.with(Part::Fixed(lines))
+        self.with(ReportPart::Fixed(lines))
     }
 
     /// Adds a list.
     #[must_use]
     pub fn items(self, items: Vec<String>) -> Self {
-        self.with(Part::Items(items))
+        self.with(ReportPart::Items(items))
     }
 
     /// Adds a table.
     #[must_use]
     pub fn table(self, table: Table) -> Self {
-        self.with(Part::Table(table))
+        self.with(ReportPart::Table(table))
     }
 
     /// Adds an empty line; Markdown has one after each part as it is.
     #[must_use]
     pub fn gap(self) -> Self {
-        self.with(Part::Gap)
+        self.with(ReportPart::Gap)
     }
 
     /// Adds what another report says.
@@ -109,7 +111,7 @@ impl Report {
         self
     }
 
-    fn with(mut self, part: Part) -> Self {
+    fn with(mut self, part: ReportPart) -> Self {
         self.parts.push(part);
         self
     }
@@ -136,7 +138,7 @@ pub struct Table {
 }
 
 /// What programs read of a row: the name of a column, and what it says.
-pub type Field<T> = (&'static str, fn(&T) -> String);
+pub type DataColumn<T> = (&'static str, fn(&T) -> String);
 
 /// A column of a table.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -189,7 +191,7 @@ impl Table {
     }
 
     /// A table that programs read: each column is a name and what it says of a row.
-    pub fn of<T>(columns: &[Field<T>], rows: impl IntoIterator<Item = T>) -> Self {
+    pub fn of<T>(columns: &[DataColumn<T>], rows: impl IntoIterator<Item = T>) -> Self {
         let cells = |row: T| columns.iter().map(|(_, cell)| cell(&row)).collect();
         Self::new(
             columns.iter().map(|&(name, _)| Column::left(name)),

@@ -1,19 +1,19 @@
 //! A report as text of 80 columns.
 
-use super::{Align, Column, Part, Table};
+use super::{Align, Column, ReportPart, Table};
 use crate::text::{paragraph, wrap};
 
 /// Columns of a line.
 const WIDTH: usize = 80;
 
-pub(super) fn part(part: &Part) -> String {
+pub(super) fn part(part: &ReportPart) -> String {
     match part {
-        Part::Heading(text) => paragraph(text),
-        Part::Lines(lines) | Part::Fixed(lines) | Part::Items(lines) => {
+        ReportPart::Heading(text) => paragraph(text),
+        ReportPart::Lines(lines) | ReportPart::Fixed(lines) | ReportPart::Items(lines) => {
             lines.iter().map(|line| paragraph(line)).collect()
         }
-        Part::Table(table) => Layout::of(table).text(table),
-        Part::Gap => "\n".into(),
+        ReportPart::Table(table) => TextLayout::of(table).text(table),
+        ReportPart::Gap => "\n".into(),
     }
 }
 
@@ -22,13 +22,13 @@ fn columns(text: &str) -> usize {
 }
 
 /// How wide the columns of a table are, and how many blanks lie before and between them.
-struct Layout {
+struct TextLayout {
     widths: Vec<usize>,
     gap: usize,
     indent: usize,
 }
 
-impl Layout {
+impl TextLayout {
     fn of(table: &Table) -> Self {
         let widths = |gap| Self {
             widths: widths(table, gap),

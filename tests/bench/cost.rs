@@ -8,9 +8,10 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use rayscope::geometry::{Ray, Sphere};
-use rayscope::lab::{Family, Random};
+use rayscope::lab::Family;
 use rayscope::method::batch::{Batch, Scalars, Solutions, Vectors};
 use rayscope::method::{Class, Method, Solution, exact};
+use rayscope::random::Random;
 
 const RAYS: usize = 4096;
 const ROUNDS: usize = 61;

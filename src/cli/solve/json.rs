@@ -17,34 +17,34 @@ const DIGITS: usize = 60;
 
 /// The derivation with a line end.
 pub(super) fn text(ray: &Ray, sphere: &Sphere, trace: &Trace) -> String {
-    report::json(&Document::new(ray, sphere, trace))
+    report::json(&SolveJson::new(ray, sphere, trace))
 }
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct SolveJson<'a> {
     ray: RayOut,
     sphere: SphereOut,
     method: &'static str,
     class: &'static str,
-    near: Option<Number>,
-    far: Option<Number>,
+    near: Option<NumberJson>,
+    far: Option<NumberJson>,
     place: Option<&'static str>,
-    visible: Option<Number>,
+    visible: Option<NumberJson>,
     precision: &'static str,
-    a: Number,
-    b: Number,
-    c: Number,
-    discriminant: Number,
-    errors: Errors,
-    truth: Answer,
+    a: NumberJson,
+    b: NumberJson,
+    c: NumberJson,
+    discriminant: NumberJson,
+    errors: ErrorsJson,
+    truth: AnswerJson,
     verdict: Option<String>,
     steps: Vec<StepOut<'a>>,
 }
 
-impl<'a> Document<'a> {
+impl<'a> SolveJson<'a> {
     fn new(ray: &Ray, sphere: &Sphere, trace: &'a Trace) -> Self {
         let solution = trace.solution;
-        let Answer { class, near, far } = Answer::new(solution);
+        let AnswerJson { class, near, far } = AnswerJson::new(solution);
         Self {
             ray: RayOut {
                 origin: ray.origin.to_array(),
@@ -59,21 +59,21 @@ impl<'a> Document<'a> {
             near,
             far,
             place: solution.place().map(Place::name),
-            visible: solution.visible().map(Number::binary32),
+            visible: solution.visible().map(NumberJson::binary32),
             precision: precision(trace.a.precision),
-            a: Number::of(&trace.a),
-            b: Number::of(&trace.b),
-            c: Number::of(&trace.c),
-            discriminant: Number::of(&trace.discriminant),
-            errors: Errors {
-                a: Error::of(&trace.a),
-                b: Error::of(&trace.b),
-                c: Error::of(&trace.c),
-                discriminant: Error::of(&trace.discriminant),
-                near: trace.near.as_ref().map(Error::of),
-                far: trace.far.as_ref().map(Error::of),
+            a: NumberJson::of(&trace.a),
+            b: NumberJson::of(&trace.b),
+            c: NumberJson::of(&trace.c),
+            discriminant: NumberJson::of(&trace.discriminant),
+            errors: ErrorsJson {
+                a: ErrorJson::of(&trace.a),
+                b: ErrorJson::of(&trace.b),
+                c: ErrorJson::of(&trace.c),
+                discriminant: ErrorJson::of(&trace.discriminant),
+                near: trace.near.as_ref().map(ErrorJson::of),
+                far: trace.far.as_ref().map(ErrorJson::of),
             },
-            truth: Answer::new(trace.truth),
+            truth: AnswerJson::new(trace.truth),
             verdict: trace.verdict(Glyphs::Ascii),
             steps: trace.steps.iter().map(StepOut::new).collect(),
         }
@@ -93,25 +93,25 @@ struct SphereOut {
 }
 
 #[derive(Serialize)]
-struct Errors {
-    a: Error,
-    b: Error,
-    c: Error,
-    discriminant: Error,
-    near: Option<Error>,
-    far: Option<Error>,
+struct ErrorsJson {
+    a: ErrorJson,
+    b: ErrorJson,
+    c: ErrorJson,
+    discriminant: ErrorJson,
+    near: Option<ErrorJson>,
+    far: Option<ErrorJson>,
 }
 
 #[derive(Serialize)]
-struct Answer {
+struct AnswerJson {
     class: &'static str,
-    near: Option<Number>,
-    far: Option<Number>,
+    near: Option<NumberJson>,
+    far: Option<NumberJson>,
 }
 
-impl Answer {
+impl AnswerJson {
     fn new(solution: Solution) -> Self {
-        let root = |t| (solution.class != Class::Miss).then(|| Number::binary32(t));
+        let root = |t| (solution.class != Class::Miss).then(|| NumberJson::binary32(t));
         Self {
             class: solution.class.name(),
             near: root(solution.near),
@@ -177,32 +177,32 @@ impl<'a> LossOut<'a> {
 
 #[derive(Serialize)]
 struct MeasuredOut {
-    value: Number,
+    value: NumberJson,
     #[serde(flatten)]
-    error: Error,
+    error: ErrorJson,
 }
 
 impl MeasuredOut {
     fn new(measured: &Measured) -> Self {
         Self {
-            value: Number::of(measured),
-            error: Error::of(measured),
+            value: NumberJson::of(measured),
+            error: ErrorJson::of(measured),
         }
     }
 }
 
 #[derive(Serialize)]
-struct Error {
+struct ErrorJson {
     exact: Option<String>,
-    ulps: Option<Number>,
+    ulps: Option<NumberJson>,
 }
 
-impl Error {
+impl ErrorJson {
     fn of(measured: &Measured) -> Self {
         let exact = |value: &Surd| format::exact(value, DIGITS, Glyphs::Ascii);
         Self {
             exact: measured.exact.as_ref().map(exact),
-            ulps: measured.ulps().map(|value| Number {
+            ulps: measured.ulps().map(|value| NumberJson {
                 value,
                 precision: Precision::Binary64,
             }),
@@ -211,12 +211,12 @@ impl Error {
 }
 
 /// A number of the machine.
-struct Number {
+struct NumberJson {
     value: f64,
     precision: Precision,
 }
 
-impl Number {
+impl NumberJson {
     fn of(measured: &Measured) -> Self {
         Self {
             value: measured.value,
@@ -232,7 +232,7 @@ impl Number {
     }
 }
 
-impl Serialize for Number {
+impl Serialize for NumberJson {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         if !self.value.is_finite() {
             return serializer.collect_str(&format::binary64(self.value, Glyphs::Ascii));

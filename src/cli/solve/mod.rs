@@ -41,12 +41,12 @@ pub(super) struct Solve {
     method: Method,
     /// How the derivation of one intersection is written
     #[arg(long, value_name = "FORMAT", value_enum, default_value_t)]
-    format: Format,
+    format: DerivationFormat,
 }
 
 /// How a derivation is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, clap::ValueEnum)]
-enum Format {
+enum DerivationFormat {
     /// For people
     #[default]
     Text,

@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Write as _};
 
-use super::{Format, input, json};
+use super::{DerivationFormat, input, json};
 use crate::geometry::{Ray, Sphere};
 use crate::method::format::binary32;
 use crate::method::trace::{self, Measured, Trace};
@@ -17,13 +17,13 @@ pub(super) fn written(
     ray: &str,
     sphere: &str,
     method: Method,
-    format: Format,
+    format: DerivationFormat,
 ) -> Result<String, String> {
     let (ray, sphere) = input::ray_and_sphere(ray, sphere)?;
     let trace = method.trace(&ray, &sphere);
     Ok(match format {
-        Format::Text => text(&ray, &sphere, &trace),
-        Format::Json => json::text(&ray, &sphere, &trace),
+        DerivationFormat::Text => text(&ray, &sphere, &trace),
+        DerivationFormat::Json => json::text(&ray, &sphere, &trace),
     })
 }
 

@@ -14,7 +14,7 @@
 use super::canvas::{Canvas, Dash, Dot, Ink};
 use crate::explain::{Line, Role};
 use crate::lab::bench::text::{brief, settled_by};
-use crate::lab::bench::{Chapter, Row};
+use crate::lab::bench::{MeasuredMethod, MeasuredSet};
 use crate::text::{self, Glyphs};
 
 /// The lowest chart that says more than its table.
@@ -24,27 +24,27 @@ const LEAST_ROWS: usize = 7;
 const AMPLE_ROWS: usize = 16;
 
 /// The chart and the table of one picture, in `cols` × `rows` characters; the table may be longer.
-pub fn work(chapter: &Chapter, cols: usize, rows: usize, glyphs: Glyphs) -> Vec<Line> {
-    let mut table = table(chapter, cols);
+pub fn work(set: &MeasuredSet, cols: usize, rows: usize, glyphs: Glyphs) -> Vec<Line> {
+    let mut table = table(set, cols);
     if rows > table.len() + AMPLE_ROWS {
-        table.extend(stages(chapter, cols));
+        table.extend(stages(set, cols));
     }
     let room = rows.saturating_sub(table.len());
     if room < LEAST_ROWS || cols < 24 {
         return table;
     }
-    let mut lines = chart(chapter, cols, room, glyphs);
+    let mut lines = chart(set, cols, room, glyphs);
     lines.extend(table);
     lines
 }
 
 /// The letter that stands for a method in the chart: no two begin alike.
-fn letter(row: &Row) -> char {
+fn letter(row: &MeasuredMethod) -> char {
     row.method.chars().next().unwrap_or('?')
 }
 
 /// Wrong answers in per cent, in few characters, none of them a rounded 0 or 100.
-fn wrong_rate(row: &Row, rays: usize) -> String {
+fn wrong_rate(row: &MeasuredMethod, rays: usize) -> String {
     let wrong = row.errors.wrong.total();
     let percent = 100.0 * wrong as f64 / rays.max(1) as f64;
     if wrong == 0 {
@@ -61,7 +61,7 @@ fn wrong_rate(row: &Row, rays: usize) -> String {
 }
 
 /// The 99th percentile; a dash where no answer was right.
-fn p99(row: &Row) -> String {
+fn p99(row: &MeasuredMethod) -> String {
     if row.errors.judged == 0 {
         "–".into()
     } else {
@@ -70,45 +70,45 @@ fn p99(row: &Row) -> String {
 }
 
 /// A column of the table: its heading, its width with the blank before it, what it says.
-struct Column {
+struct PanelColumn {
     heading: &'static str,
     width: usize,
-    cell: fn(&Row) -> String,
+    cell: fn(&MeasuredMethod) -> String,
 }
 
 /// The most useful first.
-const COLUMNS: [Column; 7] = [
-    Column {
+const COLUMNS: [PanelColumn; 7] = [
+    PanelColumn {
         heading: "p99 ulp",
         width: 8,
         cell: p99,
     },
-    Column {
+    PanelColumn {
         heading: "ns",
         width: 6,
         cell: |row| brief(row.times.throughput.median),
     },
-    Column {
+    PanelColumn {
         heading: "ratio",
         width: 6,
         cell: |row| brief(row.times.throughput_ratio),
     },
-    Column {
+    PanelColumn {
         heading: "arrays",
         width: 7,
         cell: |row| brief(row.times.batch.median),
     },
-    Column {
+    PanelColumn {
         heading: "latency",
         width: 8,
         cell: |row| brief(row.times.latency.median),
     },
-    Column {
+    PanelColumn {
         heading: "p50",
         width: 7,
         cell: |row| brief(row.errors.ulp.p50),
     },
-    Column {
+    PanelColumn {
         heading: "largest",
         width: 8,
         cell: |row| brief(row.errors.ulp.max),
@@ -116,10 +116,10 @@ const COLUMNS: [Column; 7] = [
 ];
 
 /// Mark, letter, name and the rate of wrong answers, then as many columns as there is room for.
-fn table(chapter: &Chapter, cols: usize) -> Vec<Line> {
+fn table(set: &MeasuredSet, cols: usize) -> Vec<Line> {
     const FIRST: usize = 20;
     let mut left = cols.saturating_sub(FIRST);
-    let columns: Vec<&Column> = COLUMNS
+    let columns: Vec<&PanelColumn> = COLUMNS
         .iter()
         .take_while(|column| {
             let fits = column.width <= left;
@@ -127,7 +127,7 @@ fn table(chapter: &Chapter, cols: usize) -> Vec<Line> {
             fits
         })
         .collect();
-    let all = |cell: &dyn Fn(&Column) -> String| {
+    let all = |cell: &dyn Fn(&PanelColumn) -> String| {
         let cells = columns.iter().map(|c| (cell(c), c.width));
         cells.fold(String::new(), |line, (cell, width)| {
             format!("{line}{cell:>width$}")
@@ -136,9 +136,9 @@ fn table(chapter: &Chapter, cols: usize) -> Vec<Line> {
     let headings = all(&|column| column.heading.into());
     let heading = format!("   {:10}{:>7}{headings}", "method", "wrong %");
     let mut lines = vec![Line::of(Role::Faint, heading)];
-    for row in &chapter.rows {
+    for row in &set.rows {
         let mark = if row.pareto { '*' } else { ' ' };
-        let rate = wrong_rate(row, chapter.census.rays);
+        let rate = wrong_rate(row, set.census.rays);
         let role = if rate == "0" {
             Role::Value
         } else {
@@ -157,8 +157,8 @@ fn table(chapter: &Chapter, cols: usize) -> Vec<Line> {
 }
 
 /// Which stages of `exact` settled how many of the questions.
-fn stages(chapter: &Chapter, cols: usize) -> Vec<Line> {
-    let settled = chapter.rows.iter().filter_map(settled_by);
+fn stages(set: &MeasuredSet, cols: usize) -> Vec<Line> {
+    let settled = set.rows.iter().filter_map(settled_by);
     let lines = settled.flat_map(|text| text::wrap(&text, cols));
     lines.map(|text| Line::of(Role::Faint, text)).collect()
 }
@@ -174,15 +174,15 @@ struct Span {
 const NO_ERROR: f64 = -3.0;
 
 impl Span {
-    fn of(chapter: &Chapter) -> Self {
-        let judged = chapter.rows.iter().filter(|row| row.errors.judged > 0);
+    fn of(set: &MeasuredSet) -> Self {
+        let judged = set.rows.iter().filter(|row| row.errors.judged > 0);
         let reach = |values: &mut dyn Iterator<Item = f64>| {
             values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], v| {
                 [least.min(v), most.max(v)]
             })
         };
         let [left, right] = reach(&mut judged.map(log_error));
-        let [bottom, top] = reach(&mut chapter.rows.iter().map(log_time));
+        let [bottom, top] = reach(&mut set.rows.iter().map(log_time));
         // One picture looks much like the next if the span changes in steps.
         let [left, right] = [left.min(-1.0), right].map(f64::ceil);
         Self {
@@ -192,11 +192,11 @@ impl Span {
     }
 }
 
-fn log_error(row: &Row) -> f64 {
+fn log_error(row: &MeasuredMethod) -> f64 {
     row.errors.ulp.p99.log2().clamp(NO_ERROR, 120.0)
 }
 
-fn log_time(row: &Row) -> f64 {
+fn log_time(row: &MeasuredMethod) -> f64 {
     row.times.throughput.median.log2().clamp(-3.0, 40.0)
 }
 
@@ -215,7 +215,7 @@ struct Chart {
 
 impl Chart {
     /// The dot of values; where there is no error to tell, at the right edge.
-    fn place(&self, row: &Row) -> Dot {
+    fn place(&self, row: &MeasuredMethod) -> Dot {
         let Span { x, y } = self.span;
         let part = |v: f64, [from, to]: [f64; 2]| ((v - from) / (to - from)).clamp(0.0, 1.0);
         let across = if row.errors.judged == 0 {
@@ -237,18 +237,18 @@ impl Chart {
     }
 }
 
-fn chart(chapter: &Chapter, cols: usize, rows: usize, glyphs: Glyphs) -> Vec<Line> {
+fn chart(set: &MeasuredSet, cols: usize, rows: usize, glyphs: Glyphs) -> Vec<Line> {
     let left = 5;
     let mut chart = Chart {
         canvas: Canvas::new(cols, rows, glyphs),
-        span: Span::of(chapter),
+        span: Span::of(set),
         left,
         cols: cols - left,
         bottom: rows - 3,
     };
     chart.axes(rows);
-    chart.pareto_line(chapter);
-    chart.points(chapter);
+    chart.pareto_line(set);
+    chart.points(set);
     chart.canvas.lines()
 }
 
@@ -317,11 +317,8 @@ impl Chart {
     }
 
     /// Through the methods that no other beats, by their error.
-    fn pareto_line(&mut self, chapter: &Chapter) {
-        let best = chapter
-            .rows
-            .iter()
-            .filter(|r| r.pareto && r.errors.judged > 0);
+    fn pareto_line(&mut self, set: &MeasuredSet) {
+        let best = set.rows.iter().filter(|r| r.pareto && r.errors.judged > 0);
         let mut best: Vec<Dot> = best.map(|row| self.place(row)).collect();
         best.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.total_cmp(&a.1)));
         for pair in best.windows(2) {
@@ -331,9 +328,9 @@ impl Chart {
     }
 
     /// Letters first, so that no label hides one; methods in one cell share a label.
-    fn points(&mut self, chapter: &Chapter) {
-        let mut groups: Vec<((usize, usize), Vec<&Row>)> = Vec::new();
-        for row in &chapter.rows {
+    fn points(&mut self, set: &MeasuredSet) {
+        let mut groups: Vec<((usize, usize), Vec<&MeasuredMethod>)> = Vec::new();
+        for row in &set.rows {
             let Some(cell) = self.canvas.cell_of(self.place(row)) else {
                 continue;
             };
@@ -346,7 +343,7 @@ impl Chart {
             self.canvas.put(*col, *line, letter(group[0]), Ink::Root);
         }
         for (cell, group) in &groups {
-            let rays = chapter.census.rays;
+            let rays = set.census.rays;
             let label = label(group, rays);
             if !self.canvas.label_beside(*cell, &label, Ink::Note) {
                 self.canvas.label(*cell, &label, Ink::Note, true);
@@ -356,7 +353,7 @@ impl Chart {
 }
 
 /// The letters beside the first, and the rates of wrong answers.
-fn label(group: &[&Row], rays: usize) -> String {
+fn label(group: &[&MeasuredMethod], rays: usize) -> String {
     let mut rates: Vec<String> = group.iter().map(|row| wrong_rate(row, rays)).collect();
     rates.dedup();
     let others: String = group[1..].iter().map(|row| letter(row)).collect();
@@ -383,17 +380,17 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::lab::{Census, Errors, Percentiles, Wrong};
+    use crate::lab::{Census, Errors, FaultCounts, Percentiles};
     use crate::method::Method;
 
     /// A row with this p99, time in ns and number of wrong answers of 1000.
-    fn row(method: Method, p99: f64, ns: f64, wrong: usize) -> Row {
-        let mut row = Row {
+    fn row(method: Method, p99: f64, ns: f64, wrong: usize) -> MeasuredMethod {
+        let mut row = MeasuredMethod {
             method: method.name(),
             errors: Errors {
-                wrong: Wrong {
+                wrong: FaultCounts {
                     false_miss: wrong,
-                    ..Wrong::default()
+                    ..FaultCounts::default()
                 },
                 ulp: Percentiles {
                     p99,
@@ -410,8 +407,8 @@ mod tests {
         row
     }
 
-    fn chapter(rows: Vec<Row>) -> Chapter {
-        Chapter {
+    fn set(rows: Vec<MeasuredMethod>) -> MeasuredSet {
+        MeasuredSet {
             name: "test".into(),
             about: String::new(),
             census: Census {
@@ -446,7 +443,7 @@ mod tests {
         ];
         let mut rows_in_order = rows.clone();
         rows_in_order.push(row(Method::Double, 0.5, 4.0, 1000));
-        let lines = text(&work(&chapter(rows_in_order), 60, 24, Glyphs::Unicode));
+        let lines = text(&work(&set(rows_in_order), 60, 24, Glyphs::Unicode));
         let [t, h, e, d] = ['t', 'h', 'e', 'd'].map(|letter| place(&lines, letter));
         assert!(e.0 < h.0 && h.0 < t.0, "{lines:#?}");
         assert!(e.1 < h.1 && h.1 < t.1, "{lines:#?}");
@@ -465,7 +462,7 @@ mod tests {
             row(Method::Citardauq, 40.0, 4.01, 120),
             row(Method::Exact, 0.5, 4.0, 0),
         ];
-        let whole = text(&work(&chapter(rows), 60, 24, Glyphs::Unicode)).join("\n");
+        let whole = text(&work(&set(rows), 60, 24, Glyphs::Unicode)).join("\n");
         assert!(whole.contains("t c 12 %"), "{whole}");
     }
 
@@ -489,7 +486,7 @@ mod tests {
             let methods = Method::ALL.into_iter().zip(values);
             let made = methods.map(|(m, (p99, ns, wrong))| row(m, p99, ns, wrong)).collect();
             let glyphs = if ascii { Glyphs::Ascii } else { Glyphs::Unicode };
-            let lines = work(&chapter(made), cols, rows, glyphs);
+            let lines = work(&set(made), cols, rows, glyphs);
             for line in &lines[..lines.len().saturating_sub(8)] {
                 prop_assert!(line.width() <= cols);
                 prop_assert!(!ascii || line.text().is_ascii());

@@ -11,8 +11,8 @@ mod text;
 
 use super::nearest_miss;
 use crate::geometry::Ray;
-use crate::lab::Random;
 use crate::method::{Class, Method, Place};
+use crate::random::Random;
 use crate::scene::{Rays, Scene, Size};
 use exercise::Exercise;
 pub use text::Part;

@@ -251,9 +251,9 @@ impl Explorer {
         let mut lines = self.measuring.remarks(width);
         if let Some(chart) = &self.measuring.chart {
             let rows = usize::from(room.height).saturating_sub(lines.len());
-            let chapters = chart.report.chapters.iter();
+            let sets = chart.report.sets.iter();
             let glyphs = self.options.glyphs;
-            lines.extend(chapters.flat_map(|c| explain::work(c, width, rows, glyphs)));
+            lines.extend(sets.flat_map(|c| explain::work(c, width, rows, glyphs)));
         }
         (title, lines)
     }

@@ -216,7 +216,7 @@ impl Chart {
         if cfg!(debug_assertions) {
             remarks.push((Role::Warning, "Not an optimised build.".into()));
         }
-        let abouts = self.report.chapters.iter().map(|chapter| &chapter.about);
+        let abouts = self.report.sets.iter().map(|chapter| &chapter.about);
         remarks.extend(abouts.map(|about| (Role::Faint, about.clone())));
         remarks
     }

@@ -3,17 +3,17 @@
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-use super::{Benchmark, Chapter, Row};
-use crate::lab::errors::{Census, Percentiles, Worst, Wrong};
+use super::{Benchmark, MeasuredMethod, MeasuredSet};
+use crate::lab::errors::{Census, FaultCounts, Percentiles, Worst};
 use crate::lab::machine::Machine;
 use crate::lab::numbers;
 use crate::lab::timing::{Nanoseconds, SelfCheck};
 use crate::method::exact::Stage;
-use crate::report::{self, Field, Table};
+use crate::report::{self, DataColumn, Table};
 use crate::text::hexadecimal;
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct BenchJson<'a> {
     rayscope: &'static str,
     machine: &'a Machine,
     seed: u64,
@@ -21,12 +21,12 @@ struct Document<'a> {
     checksum: String,
     times_trusted: bool,
     self_checks: &'a [SelfCheck],
-    sets: Vec<Set<'a>>,
-    results: Vec<Entry<'a>>,
+    sets: Vec<SetJson<'a>>,
+    results: Vec<MethodJson<'a>>,
 }
 
 #[derive(Serialize)]
-struct Set<'a> {
+struct SetJson<'a> {
     name: &'a str,
     about: &'a str,
     #[serde(flatten)]
@@ -36,11 +36,11 @@ struct Set<'a> {
 }
 
 #[derive(Serialize)]
-struct Entry<'a> {
+struct MethodJson<'a> {
     family: &'a str,
     method: &'static str,
     rays: usize,
-    wrong: Wrong,
+    wrong: FaultCounts,
     judged: usize,
     ulp: Percentiles,
     worst: Option<Largest>,
@@ -73,16 +73,16 @@ impl Largest {
     }
 }
 
-impl<'a> Entry<'a> {
-    fn of(chapter: &'a Chapter, row: &Row) -> Self {
+impl<'a> MethodJson<'a> {
+    fn of(set: &'a MeasuredSet, row: &MeasuredMethod) -> Self {
         let settled_by = row.stages.map(|counts| {
             let names = Stage::ALL.map(|stage| stage.name().to_owned());
             names.into_iter().zip(counts.map(Value::from)).collect()
         });
         Self {
-            family: &chapter.name,
+            family: &set.name,
             method: row.method,
-            rays: chapter.census.rays,
+            rays: set.census.rays,
             wrong: row.errors.wrong,
             judged: row.errors.judged,
             ulp: row.errors.ulp,
@@ -102,17 +102,17 @@ impl<'a> Entry<'a> {
 /// The report as one JSON object.
 pub fn json(bench: &Benchmark, machine: &Machine) -> String {
     let rows = bench
-        .chapters
+        .sets
         .iter()
-        .flat_map(|chapter| chapter.rows.iter().map(move |row| Entry::of(chapter, row)));
-    let sets = bench.chapters.iter().map(|chapter| Set {
-        name: &chapter.name,
-        about: &chapter.about,
-        census: chapter.census,
+        .flat_map(|set| set.rows.iter().map(move |row| MethodJson::of(set, row)));
+    let sets = bench.sets.iter().map(|set| SetJson {
+        name: &set.name,
+        about: &set.about,
+        census: set.census,
         order: "as drawn or as in the picture, not sorted by class",
-        timed: chapter.timed,
+        timed: set.timed,
     });
-    report::json(&Document {
+    report::json(&BenchJson {
         rayscope: env!("CARGO_PKG_VERSION"),
         machine,
         seed: bench.seed,
@@ -126,23 +126,23 @@ pub fn json(bench: &Benchmark, machine: &Machine) -> String {
 }
 
 /// One set and method, and what they were measured with.
-struct Line<'a> {
+struct BenchLine<'a> {
     bench: &'a Benchmark,
     machine: &'a Machine,
-    chapter: &'a Chapter,
-    row: &'a Row,
+    set: &'a MeasuredSet,
+    row: &'a MeasuredMethod,
     worst: Option<Largest>,
 }
 
 /// The columns of the CSV; the ten numbers of the worst input lie in one, with blanks between them, p0, d, c, r.
-const fn columns<'a>() -> [Field<Line<'a>>; 38] {
+const fn columns<'a>() -> [DataColumn<BenchLine<'a>>; 38] {
     [
-        ("family", |l| l.chapter.name.clone()),
+        ("family", |l| l.set.name.clone()),
         ("method", |l| l.row.method.to_owned()),
-        ("rays", |l| l.chapter.census.rays.to_string()),
-        ("miss", |l| l.chapter.census.miss.to_string()),
-        ("tangent", |l| l.chapter.census.tangent.to_string()),
-        ("secant", |l| l.chapter.census.secant.to_string()),
+        ("rays", |l| l.set.census.rays.to_string()),
+        ("miss", |l| l.set.census.miss.to_string()),
+        ("tangent", |l| l.set.census.tangent.to_string()),
+        ("secant", |l| l.set.census.secant.to_string()),
         ("false_hit", |l| l.row.errors.wrong.false_hit.to_string()),
         ("false_miss", |l| l.row.errors.wrong.false_miss.to_string()),
         ("wrong_count", |l| {
@@ -182,7 +182,7 @@ const fn columns<'a>() -> [Field<Line<'a>>; 38] {
     ]
 }
 
-impl Line<'_> {
+impl BenchLine<'_> {
     /// What is said of the largest error; nothing if there is none.
     fn of_worst(&self, said: fn(&Largest) -> String) -> String {
         self.worst.as_ref().map(said).unwrap_or_default()
@@ -191,11 +191,11 @@ impl Line<'_> {
 
 /// One row for each set and method.
 pub fn records(bench: &Benchmark, machine: &Machine) -> Table {
-    let lines = bench.chapters.iter().flat_map(|chapter| {
-        chapter.rows.iter().map(move |row| Line {
+    let lines = bench.sets.iter().flat_map(|set| {
+        set.rows.iter().map(move |row| BenchLine {
             bench,
             machine,
-            chapter,
+            set,
             row,
             worst: row.errors.worst.as_ref().map(Largest::of),
         })
@@ -203,7 +203,7 @@ pub fn records(bench: &Benchmark, machine: &Machine) -> Table {
     Table::of(&columns(), lines)
 }
 
-fn settled_by(row: &Row) -> String {
+fn settled_by(row: &MeasuredMethod) -> String {
     let Some(counts) = row.stages else {
         return String::new();
     };

@@ -11,11 +11,11 @@ pub use text::{error_overview, error_table, markdown, text};
 use crate::lab::Problem;
 use crate::lab::errors::{Census, Checksum, Errors};
 use crate::lab::families::Family;
-use crate::lab::random::Random;
 use crate::lab::reference::Reference;
 use crate::lab::timing::{self, Clock, Routine, Schedule, SelfCheck, Times};
 use crate::method::Method;
 use crate::method::exact::{self, Stage};
+use crate::random::Random;
 use crate::scene::{Rays, Scene};
 
 /// A set of rays and spheres with a name.
@@ -94,7 +94,7 @@ pub const MOST_TIMED: usize = 4096;
 
 /// One method on one set.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Row {
+pub struct MeasuredMethod {
     /// The name of the method.
     pub method: &'static str,
     /// What it got wrong.
@@ -110,7 +110,7 @@ pub struct Row {
 
 /// All methods on one set.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Chapter {
+pub struct MeasuredSet {
     /// The set's name.
     pub name: String,
     /// The set's sentence.
@@ -120,7 +120,7 @@ pub struct Chapter {
     /// How many of its rays were timed, the first ones.
     pub timed: usize,
     /// The methods, in the order of the plan.
-    pub rows: Vec<Row>,
+    pub rows: Vec<MeasuredMethod>,
 }
 
 /// Measures all methods of a plan on one set; none if `go_on` said no.
@@ -129,7 +129,7 @@ pub fn measure(
     sample: &Sample,
     clock: &dyn Clock,
     mut go_on: impl FnMut() -> bool,
-) -> Option<Chapter> {
+) -> Option<MeasuredSet> {
     if !go_on() {
         return None;
     }
@@ -142,11 +142,11 @@ pub fn measure(
         .collect();
     let timed = &problems[..problems.len().min(MOST_TIMED)];
     let times = time_methods(plan, timed, clock, go_on)?;
-    let mut rows: Vec<Row> = plan
+    let mut rows: Vec<MeasuredMethod> = plan
         .methods
         .iter()
         .zip(errors.into_iter().zip(times))
-        .map(|(&method, (errors, times))| Row {
+        .map(|(&method, (errors, times))| MeasuredMethod {
             method: method.name(),
             errors,
             times,
@@ -155,7 +155,7 @@ pub fn measure(
         })
         .collect();
     mark_pareto(&mut rows);
-    Some(Chapter {
+    Some(MeasuredSet {
         name: sample.name.clone(),
         about: sample.about.clone(),
         census: Census::of(&references),
@@ -200,8 +200,8 @@ fn count_stages(problems: &[Problem]) -> [usize; Stage::ALL.len()] {
 }
 
 /// Marks the rows that no other row dominates.
-fn mark_pareto(rows: &mut [Row]) {
-    let cost = |row: &Row| {
+fn mark_pareto(rows: &mut [MeasuredMethod]) {
+    let cost = |row: &MeasuredMethod| {
         let Errors { wrong, ulp, .. } = &row.errors;
         [wrong.total() as f64, ulp.p99, row.times.throughput.median]
     };
@@ -221,7 +221,7 @@ pub struct Benchmark {
     /// The seed of the rays.
     pub seed: u64,
     /// The sets that were measured to the end.
-    pub chapters: Vec<Chapter>,
+    pub sets: Vec<MeasuredSet>,
     /// What the timing said of itself.
     pub self_checks: Vec<SelfCheck>,
     /// Whether all sets of the plan are there.
@@ -237,7 +237,7 @@ impl Benchmark {
     /// A hash of all answers of all methods.
     pub fn checksum(&self) -> Checksum {
         let mut checksum = Checksum::default();
-        for row in self.chapters.iter().flat_map(|chapter| &chapter.rows) {
+        for row in self.sets.iter().flat_map(|set| &set.rows) {
             checksum.combine(row.errors.checksum);
         }
         checksum
@@ -266,15 +266,15 @@ pub fn run(
         }
         None => Vec::new(),
     };
-    let chapters: Vec<Chapter> = samples
+    let sets: Vec<MeasuredSet> = samples
         .iter()
         .enumerate()
         .map_while(|(i, sample)| measure(plan, sample, clock, || go_on(i, &sample.name)))
         .collect();
     Benchmark {
         seed,
-        complete: chapters.len() == samples.len(),
-        chapters,
+        complete: sets.len() == samples.len(),
+        sets,
         self_checks,
     }
 }

@@ -1,6 +1,6 @@
 //! A benchmark for people: as text of 80 columns, and the same in Markdown.
 
-use super::{Benchmark, Chapter, Row};
+use super::{Benchmark, MeasuredMethod, MeasuredSet};
 use crate::lab::errors::{Census, Errors, Fault, Worst};
 use crate::lab::machine::Machine;
 use crate::lab::numbers;
@@ -28,11 +28,8 @@ pub(crate) fn brief(x: f64) -> String {
 /// The report as text; `worst` adds the inputs of the largest errors.
 pub fn text(bench: &Benchmark, machine: &Machine, worst: bool) -> Report {
     let start = Report::new().lines(header(bench, machine));
-    let chapters = bench.chapters.iter();
-    chapters
-        .fold(start, |report, chapter| {
-            report.gap().then(section(chapter, worst))
-        })
+    let sets = bench.sets.iter();
+    sets.fold(start, |report, set| report.gap().then(section(set, worst)))
         .gap()
         .lines(footer(bench))
 }
@@ -48,45 +45,44 @@ fn header(bench: &Benchmark, machine: &Machine) -> Vec<String> {
     ]
 }
 
-fn section(chapter: &Chapter, worst: bool) -> Report {
-    let rows = &chapter.rows;
+fn section(set: &MeasuredSet, worst: bool) -> Report {
+    let rows = &set.rows;
     let settled = rows.iter().filter_map(settled_by);
     let largest = rows.iter().filter(|_| worst).filter_map(largest);
     Report::new()
-        .heading(format!("{}: {}", chapter.name, chapter.about))
-        .table(errors(chapter))
-        .table(times(chapter))
+        .heading(format!("{}: {}", set.name, set.about))
+        .table(errors(set))
+        .table(times(set))
         .lines(settled.map(|text| format!("  {text}")))
         .lines(largest)
 }
 
-fn errors(chapter: &Chapter) -> Table {
-    let rows: Vec<_> = chapter
+fn errors(set: &MeasuredSet) -> Table {
+    let rows: Vec<_> = set
         .rows
         .iter()
-        .map(|row| (if row.pareto { "*" } else { "" }, row.method, &row.errors))
+        .map(|row| (if row.pareto { '*' } else { ' ' }, row.method, &row.errors))
         .collect();
-    error_lines(&chapter.census, &rows)
+    error_lines(&set.census, &rows)
 }
 
 /// A line of errors for each entrant: a mark, a name, what it got wrong.
-pub(crate) fn error_lines(census: &Census, rows: &[(&str, &str, &Errors)]) -> Table {
+pub(crate) fn error_lines(census: &Census, rows: &[(char, &str, &Errors)]) -> Table {
     let names = [
         "hit", "miss", "count", "finite", "p50", "p99", "p99.9", "largest",
     ];
-    let columns = ["", "method"].map(Column::left);
     let of = Fault::ALL.map(|fault| census.denominator(fault).to_string());
-    let of = [String::new(), "of".into()].into_iter().chain(of).collect();
-    let cells = |&(mark, name, errors): &(&str, &str, &Errors)| {
-        let names = [mark, name].map(str::to_owned).into_iter();
-        names.chain(error_cells(errors)).collect()
+    let of = std::iter::once("  of".to_owned()).chain(of).collect();
+    let cells = |&(mark, name, errors): &(char, &str, &Errors)| {
+        let name = format!("{mark} {name}");
+        std::iter::once(name).chain(error_cells(errors)).collect()
     };
     Table::new(
-        columns.into_iter().chain(names.map(Column::right)),
+        std::iter::once(Column::left("  method")).chain(names.map(Column::right)),
         std::iter::once(of).chain(rows.iter().map(cells)),
     )
     .grouped(&[
-        ("", 2),
+        ("", 1),
         ("false", 1),
         ("false", 1),
         ("wrong", 1),
@@ -112,9 +108,9 @@ fn ways(times: &Times) -> [(Nanoseconds, f64); 3] {
     ]
 }
 
-fn times(chapter: &Chapter) -> Table {
+fn times(set: &MeasuredSet) -> Table {
     let names = ["med.", "min", "iqr", "×tb"].repeat(3);
-    let cells = |row: &Row| {
+    let cells = |row: &MeasuredMethod| {
         let ways = ways(&row.times).into_iter().flat_map(|(ns, ratio)| {
             let ratio = match brief(ratio) {
                 long if long.len() > 4 => format!("{ratio:.0}"),
@@ -126,7 +122,7 @@ fn times(chapter: &Chapter) -> Table {
     };
     Table::new(
         std::iter::once(Column::left("a solve")).chain(names.into_iter().map(Column::right)),
-        chapter.rows.iter().map(cells),
+        set.rows.iter().map(cells),
     )
     .grouped(&[
         ("ns for", 1),
@@ -138,7 +134,7 @@ fn times(chapter: &Chapter) -> Table {
 }
 
 /// The stages that settled the rays of `exact`, in words; none for the other methods.
-pub(crate) fn settled_by(row: &Row) -> Option<String> {
+pub(crate) fn settled_by(row: &MeasuredMethod) -> Option<String> {
     let counts = row.stages?;
     let all: usize = counts.iter().sum();
     let shares: Vec<String> = Stage::ALL
@@ -162,7 +158,7 @@ pub(crate) fn percent(part: usize, all: usize) -> String {
 }
 
 /// The input of a method's largest error; none if no answer has one.
-fn largest(row: &Row) -> Option<String> {
+fn largest(row: &MeasuredMethod) -> Option<String> {
     let Worst { error, problem } = row.errors.worst.as_ref()?;
     let [ox, oy, oz, dx, dy, dz, cx, cy, cz, r] = numbers(problem).map(hexadecimal);
     Some(format!(
@@ -203,20 +199,19 @@ pub fn markdown(bench: &Benchmark, machine: &Machine) -> Report {
         .table(time_overview(bench, |times| ways(times)[0]))
         .words("In arrays:")
         .table(time_overview(bench, |times| ways(times)[1]));
-    let chapters = bench.chapters.iter();
-    chapters
-        .fold(start, |report, chapter| {
-            report
-                .heading(&chapter.name)
-                .words(&chapter.about)
-                .table(error_table(chapter))
-                .table(time_table(chapter))
-                .items(chapter.rows.iter().filter_map(largest_input).collect())
-        })
-        .fixed(footer(bench))
+    let sets = bench.sets.iter();
+    sets.fold(start, |report, set| {
+        report
+            .heading(&set.name)
+            .words(&set.about)
+            .table(error_table(set))
+            .table(time_table(set))
+            .items(set.rows.iter().filter_map(largest_input).collect())
+    })
+    .fixed(footer(bench))
 }
 
-fn largest_input(row: &Row) -> Option<String> {
+fn largest_input(row: &MeasuredMethod) -> Option<String> {
     let worst = row.errors.worst.as_ref()?;
     let input = numbers(&worst.problem).map(hexadecimal).join(" ");
     Some(format!("`{}`, largest at `{input}`", row.method))
@@ -228,22 +223,22 @@ pub(crate) fn code(name: &str) -> String {
 }
 
 /// A table with a line for each set and a column for each method.
-fn overview(bench: &Benchmark, cell: impl Fn(&Chapter, &Row) -> String) -> Table {
-    let methods = bench.chapters.first().into_iter().flat_map(|c| &c.rows);
-    let cells = |chapter: &Chapter| {
-        let cells = chapter.rows.iter().map(|row| cell(chapter, row));
-        std::iter::once(chapter.name.clone()).chain(cells).collect()
+fn overview(bench: &Benchmark, cell: impl Fn(&MeasuredSet, &MeasuredMethod) -> String) -> Table {
+    let methods = bench.sets.first().into_iter().flat_map(|c| &c.rows);
+    let cells = |set: &MeasuredSet| {
+        let cells = set.rows.iter().map(|row| cell(set, row));
+        std::iter::once(set.name.clone()).chain(cells).collect()
     };
     Table::new(
         std::iter::once(Column::left("rays"))
             .chain(methods.map(|row| Column::right(code(row.method)))),
-        bench.chapters.iter().map(cells),
+        bench.sets.iter().map(cells),
     )
 }
 
 /// Wrong answers and the 99th percentile of the error in ulp, set by set.
 pub fn error_overview(bench: &Benchmark) -> Table {
-    overview(bench, |chapter, row| {
+    overview(bench, |set, row| {
         let errors = &row.errors;
         let p99 = match errors.judged {
             0 => "–".to_owned(),
@@ -251,7 +246,7 @@ pub fn error_overview(bench: &Benchmark) -> Table {
         };
         match errors.wrong.total() {
             0 => p99,
-            wrong => format!("**{}**, {p99}", percent(wrong, chapter.census.rays)),
+            wrong => format!("**{}**, {p99}", percent(wrong, set.census.rays)),
         }
     })
 }
@@ -265,30 +260,27 @@ fn time_overview(bench: &Benchmark, way: fn(&Times) -> (Nanoseconds, f64)) -> Ta
 }
 
 /// The errors of one set for Markdown.
-pub fn error_table(chapter: &Chapter) -> Table {
+pub fn error_table(set: &MeasuredSet) -> Table {
     let faults = Fault::ALL.map(|fault| {
-        let of = chapter.census.denominator(fault);
+        let of = set.census.denominator(fault);
         Column::right(format!("{} of {of}", fault.name()))
     });
     let ulp = ["p50 ulp", "p99", "p99.9", "largest"].map(Column::right);
     let columns = std::iter::once(Column::left("method"));
-    let cells = |row: &Row| {
+    let cells = |row: &MeasuredMethod| {
         let method = std::iter::once(code(row.method));
         method.chain(error_cells(&row.errors)).collect()
     };
-    Table::new(
-        columns.chain(faults).chain(ulp),
-        chapter.rows.iter().map(cells),
-    )
+    Table::new(columns.chain(faults).chain(ulp), set.rows.iter().map(cells))
 }
 
-fn time_table(chapter: &Chapter) -> Table {
+fn time_table(set: &MeasuredSet) -> Table {
     let ways_in_words = ["ns one by one", "ns in arrays", "latency ns"];
     let names = ways_in_words.map(|way| [way, "min", "iqr", "× textbook"].map(Column::right));
     let columns = std::iter::once(Column::left("method"))
         .chain(names.into_iter().flatten())
         .chain([Column::left("Pareto")]);
-    let cells = |row: &Row| {
+    let cells = |row: &MeasuredMethod| {
         let ways = ways(&row.times).into_iter().flat_map(|(ns, ratio)| {
             let [median, min, iqr] = [ns.median, ns.min, ns.iqr].map(|ns| format!("{ns:.1}"));
             [median, min, iqr, format!("{ratio:.2}")]
@@ -299,7 +291,7 @@ fn time_table(chapter: &Chapter) -> Table {
             .chain([pareto.to_owned()])
             .collect()
     };
-    Table::new(columns, chapter.rows.iter().map(cells))
+    Table::new(columns, set.rows.iter().map(cells))
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::{FrameRow, FrameTimes};
 use crate::lab::machine::Machine;
 use crate::method::Method;
-use crate::report::{self, Field, Report, Table};
+use crate::report::{self, DataColumn, Report, Table};
 
 /// The times as text.
 pub fn text(times: &FrameTimes, machine: &Machine) -> Report {
@@ -53,7 +53,7 @@ fn dispatch() -> &'static str {
     }
 }
 
-const TIMES: [Field<FrameRow>; 7] = [
+const TIMES: [DataColumn<FrameRow>; 7] = [
     ("spheres", |row| row.spheres.to_string()),
     ("pixels", |row| row.size.to_string()),
     ("method", |row| row.method.to_string()),
@@ -71,7 +71,7 @@ fn ratio(row: &FrameRow) -> Option<f64> {
     Some(row.no_plan_ms? / row.plan_ms)
 }
 
-const PARTS: [Field<FrameRow>; 9] = [
+const PARTS: [DataColumn<FrameRow>; 9] = [
     ("spheres", |row| row.spheres.to_string()),
     ("pixels", |row| row.size.to_string()),
     ("plan", |row| brief(row.parts.plan)),
@@ -128,7 +128,7 @@ fn brief(ms: f64) -> String {
 
 /// A row as programs read it.
 #[derive(Debug, Serialize)]
-struct Entry {
+struct FrameJson {
     spheres: usize,
     width: u32,
     height: u32,
@@ -147,7 +147,7 @@ struct Entry {
     pays: bool,
 }
 
-impl From<&FrameRow> for Entry {
+impl From<&FrameRow> for FrameJson {
     fn from(row: &FrameRow) -> Self {
         Self {
             spheres: row.spheres,
@@ -171,14 +171,14 @@ impl From<&FrameRow> for Entry {
 }
 
 #[derive(Debug, Serialize)]
-struct Document<'a> {
+struct FramesJson<'a> {
     rayscope: &'static str,
     machine: &'a Machine,
     vectors: &'static str,
     seed: u64,
     complete: bool,
     slopes: Vec<Slope>,
-    frames: Vec<Entry>,
+    frames: Vec<FrameJson>,
 }
 
 #[derive(Debug, Serialize)]
@@ -194,19 +194,19 @@ pub fn json(times: &FrameTimes, machine: &Machine) -> String {
         let method = method.name();
         Some(Slope { method, slope })
     };
-    report::json(&Document {
+    report::json(&FramesJson {
         rayscope: env!("CARGO_PKG_VERSION"),
         machine,
         vectors: dispatch(),
         seed: times.seed,
         complete: times.complete,
         slopes: Method::ALL.into_iter().filter_map(slope).collect(),
-        frames: times.rows.iter().map(Entry::from).collect(),
+        frames: times.rows.iter().map(FrameJson::from).collect(),
     })
 }
 
 /// The columns of the CSV; an empty `no_plan_ms` would take over a minute.
-const COLUMNS: [Field<FrameRow>; 16] = [
+const COLUMNS: [DataColumn<FrameRow>; 16] = [
     ("spheres", |row| row.spheres.to_string()),
     ("width", |row| row.size.width.to_string()),
     ("height", |row| row.size.height.to_string()),

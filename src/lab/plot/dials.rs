@@ -2,7 +2,7 @@
 
 use super::svg::{Anchor, Marker, Stroke, Svg};
 use super::{INK, Panel, legend, look, power_label};
-use crate::lab::stress::{Cell, Stability, Sweep, bits_lost};
+use crate::lab::stress::{MethodErrors, Stability, Sweep, bits_lost};
 
 const COLUMNS: usize = 2;
 const BITS: [f64; 2] = [420.0, 150.0];
@@ -71,7 +71,7 @@ fn draw(svg: &mut Svg, at: [f64; 2], report: &Stability, sweep: &Sweep) {
                 .iter()
                 .map(|s| (f64::from(s.k), &s.cells[i], s.census.rays))
         };
-        let rate = |cell: &Cell, rays: usize| {
+        let rate = |cell: &MethodErrors, rays: usize| {
             100.0 * cell.errors.wrong.total() as f64 / rays.max(1) as f64
         };
         let line: Vec<[f64; 2]> = cells()
@@ -119,7 +119,7 @@ fn bits_line<'a>(
     svg: &mut Svg,
     panel: &Panel,
     stroke: Stroke,
-    cells: impl Iterator<Item = (f64, &'a Cell)>,
+    cells: impl Iterator<Item = (f64, &'a MethodErrors)>,
 ) {
     let mut sound = Vec::new();
     let mut unsound = Vec::new();
@@ -190,7 +190,7 @@ fn mark(
     {
         svg.marker(at(step.k, bits), marker, color);
     }
-    let wrong = |cell: &Cell| cell.errors.wrong.total() > 0;
+    let wrong = |cell: &MethodErrors| cell.errors.wrong.total() > 0;
     if let Some(step) = sweep.steps.iter().find(|step| wrong(&step.cells[method])) {
         let [x, y] = at(step.k, step.cells[method].bits_worst().unwrap_or(24.0));
         let stroke = Stroke::solid(color, 2.0);

@@ -3,7 +3,7 @@
 use super::svg::{Anchor, Stroke, Svg};
 use super::{INK, Panel, legend, look, power_label};
 use crate::lab::bench::text::percent;
-use crate::lab::bench::{Benchmark, Chapter, Row};
+use crate::lab::bench::{Benchmark, MeasuredMethod, MeasuredSet};
 use crate::lab::machine::Machine;
 
 const COLUMNS: usize = 3;
@@ -22,14 +22,14 @@ const NONE_RIGHT: f64 = 35.0;
 
 /// The chart of a report as an SVG document.
 pub fn work_precision(report: &Benchmark, machine: &Machine) -> String {
-    let rows = report.chapters.len().div_ceil(COLUMNS);
-    let columns = report.chapters.len().clamp(2, COLUMNS);
+    let rows = report.sets.len().div_ceil(COLUMNS);
+    let columns = report.sets.len().clamp(2, COLUMNS);
     let width = LEFT + columns as f64 * (PANEL[0] + GAP[0]) - 20.0;
     let height = TOP + rows as f64 * (PANEL[1] + GAP[1]);
     let mut svg = Svg::new(width, height, "Error against run time");
     header(&mut svg, report, machine);
     let times = span(report);
-    for (i, chapter) in report.chapters.iter().enumerate() {
+    for (i, set) in report.sets.iter().enumerate() {
         let panel = Panel {
             at: [
                 LEFT + (i % COLUMNS) as f64 * (PANEL[0] + GAP[0]),
@@ -39,7 +39,7 @@ pub fn work_precision(report: &Benchmark, machine: &Machine) -> String {
             x: ERRORS,
             y: times,
         };
-        draw(&mut svg, &panel, chapter);
+        draw(&mut svg, &panel, set);
     }
     svg.finish()
 }
@@ -63,7 +63,7 @@ fn header(svg: &mut Svg, report: &Benchmark, machine: &Machine) {
         report.seed
     );
     svg.text([16.0, 42.0], &made, 11.0, INK, Anchor::Start);
-    let first = report.chapters.first();
+    let first = report.sets.first();
     let methods: Vec<&str> =
         first.map_or(Vec::new(), |c| c.rows.iter().map(|r| r.method).collect());
     legend(svg, [16.0, 62.0], &methods);
@@ -71,11 +71,7 @@ fn header(svg: &mut Svg, report: &Benchmark, machine: &Machine) {
 
 /// log₁₀ of the shortest and the longest time, in whole steps of a factor of 10^(1/2).
 fn span(report: &Benchmark) -> [f64; 2] {
-    let times = report
-        .chapters
-        .iter()
-        .flat_map(|chapter| &chapter.rows)
-        .map(log_time);
+    let times = report.sets.iter().flat_map(|set| &set.rows).map(log_time);
     let (least, most) = times.fold((f64::INFINITY, 0.0_f64), |(l, m), t| (l.min(t), m.max(t)));
     let [least, most] = [least.min(most), most];
     [
@@ -84,27 +80,27 @@ fn span(report: &Benchmark) -> [f64; 2] {
     ]
 }
 
-fn log_time(row: &Row) -> f64 {
+fn log_time(row: &MeasuredMethod) -> f64 {
     row.times.throughput.median.max(0.1).log10()
 }
 
-fn draw(svg: &mut Svg, panel: &Panel, chapter: &Chapter) {
+fn draw(svg: &mut Svg, panel: &Panel, set: &MeasuredSet) {
     panel.rules(svg, &time_ticks(panel.y));
     let mut ticks: Vec<(f64, String)> = [-1, 4, 9, 14, 19, 24, 29]
         .map(|k| (f64::from(k), power_label(k)))
         .into();
     ticks.push((NONE_RIGHT, "none right".into()));
     panel.columns(svg, &ticks);
-    let rays = chapter.census.rays;
-    panel.title(svg, &format!("{}, {rays} rays", chapter.name));
+    let rays = set.census.rays;
+    panel.title(svg, &format!("{}, {rays} rays", set.name));
     let [x, y] = panel.at;
     svg.text_upwards([x - 42.0, y + PANEL[1] / 2.0], "ns", 10.0, INK);
-    pareto_line(svg, panel, chapter);
-    for row in &chapter.rows {
+    pareto_line(svg, panel, set);
+    for row in &set.rows {
         let (color, marker) = look(row.method);
         svg.marker(point(panel, row), marker, color);
     }
-    labels(svg, panel, chapter);
+    labels(svg, panel, set);
 }
 
 fn time_ticks([least, most]: [f64; 2]) -> Vec<(f64, String)> {
@@ -118,12 +114,12 @@ fn time_ticks([least, most]: [f64; 2]) -> Vec<(f64, String)> {
         .collect()
 }
 
-fn point(panel: &Panel, row: &Row) -> [f64; 2] {
+fn point(panel: &Panel, row: &MeasuredMethod) -> [f64; 2] {
     panel.place(error(row), log_time(row))
 }
 
 /// log₂ of the error.
-fn error(row: &Row) -> f64 {
+fn error(row: &MeasuredMethod) -> f64 {
     if row.errors.judged == 0 {
         return NONE_RIGHT;
     }
@@ -131,16 +127,16 @@ fn error(row: &Row) -> f64 {
 }
 
 /// The methods that no other dominates, by their error.
-fn pareto_points(panel: &Panel, chapter: &Chapter) -> Vec<[f64; 2]> {
-    let rows = chapter.rows.iter();
+fn pareto_points(panel: &Panel, set: &MeasuredSet) -> Vec<[f64; 2]> {
+    let rows = set.rows.iter();
     let best = rows.filter(|row| row.pareto && row.errors.judged > 0);
     let mut best: Vec<[f64; 2]> = best.map(|row| point(panel, row)).collect();
     best.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     best
 }
 
-fn pareto_line(svg: &mut Svg, panel: &Panel, chapter: &Chapter) {
-    let best = pareto_points(panel, chapter);
+fn pareto_line(svg: &mut Svg, panel: &Panel, set: &MeasuredSet) {
+    let best = pareto_points(panel, set);
     if best.len() > 1 {
         svg.polyline(&best, Stroke::solid("#d0d0d0", 5.0));
     }
@@ -148,17 +144,13 @@ fn pareto_line(svg: &mut Svg, panel: &Panel, chapter: &Chapter) {
 
 /// The rate of wrong answers beside each point, where it covers neither a point nor a line nor
 /// another label; a thin line leads to one that is not right beside its point.
-fn labels(svg: &mut Svg, panel: &Panel, chapter: &Chapter) {
-    let rays = chapter.census.rays;
-    let mut taken: Vec<Area> = chapter
-        .rows
-        .iter()
-        .map(|r| around(point(panel, r)))
-        .collect();
-    for pair in pareto_points(panel, chapter).windows(2) {
+fn labels(svg: &mut Svg, panel: &Panel, set: &MeasuredSet) {
+    let rays = set.census.rays;
+    let mut taken: Vec<Area> = set.rows.iter().map(|r| around(point(panel, r))).collect();
+    for pair in pareto_points(panel, set).windows(2) {
         taken.extend(along(pair[0], pair[1]));
     }
-    let mut rows: Vec<&Row> = chapter.rows.iter().collect();
+    let mut rows: Vec<&MeasuredMethod> = set.rows.iter().collect();
     rows.sort_by(|a, b| log_time(a).total_cmp(&log_time(b)));
     for row in rows {
         let wrong = match row.errors.wrong.total() {

@@ -3,31 +3,31 @@
 use serde::Serialize;
 
 use super::theory::agree;
-use super::{Cell, Stability};
+use super::{MethodErrors, Stability};
 use crate::lab::Problem;
-use crate::lab::errors::{Percentiles, Wrong};
+use crate::lab::errors::{FaultCounts, Percentiles};
 use crate::lab::numbers;
-use crate::report::{self, Field, Table};
+use crate::report::{self, DataColumn, Table};
 use crate::text::hexadecimal;
 
 #[derive(Serialize)]
-struct Document {
+struct StabilityJson {
     rayscope: &'static str,
     seed: u64,
     rays: usize,
     complete: bool,
     checksum: String,
     promises_kept: bool,
-    promises: Vec<Promise>,
-    breakdowns: Vec<Breakdown>,
-    checks: Vec<Check>,
-    settings: Vec<Setting>,
-    inputs: Vec<Inputs>,
+    promises: Vec<PromiseJson>,
+    breakdowns: Vec<BreakdownJson>,
+    checks: Vec<CheckJson>,
+    settings: Vec<SettingJson>,
+    inputs: Vec<InputsJson>,
 }
 
 /// What rounding the inputs of one setting did, in ulp of the exact roots.
 #[derive(Serialize)]
-struct Inputs {
+struct InputsJson {
     dial: &'static str,
     k: i32,
     rays: usize,
@@ -36,7 +36,7 @@ struct Inputs {
 }
 
 #[derive(Serialize)]
-struct Promise {
+struct PromiseJson {
     method: &'static str,
     asked: usize,
     broken: usize,
@@ -44,24 +44,24 @@ struct Promise {
 }
 
 #[derive(Serialize)]
-struct Breakdown {
+struct BreakdownJson {
     dial: &'static str,
     quantity: &'static str,
     method: &'static str,
-    wrong: Place,
-    moved: Place,
+    wrong: EventJson,
+    moved: EventJson,
 }
 
 /// Exponents of 2; null for never.
 #[derive(Serialize)]
-struct Place {
+struct EventJson {
     found: Option<i32>,
     theory: Option<f64>,
     agree: bool,
 }
 
 #[derive(Serialize)]
-struct Check {
+struct CheckJson {
     name: &'static str,
     method: &'static str,
     rays: usize,
@@ -71,14 +71,14 @@ struct Check {
 }
 
 #[derive(Serialize)]
-struct Setting {
+struct SettingJson {
     dial: &'static str,
     k: i32,
     method: &'static str,
     rays: usize,
     miss: usize,
     meet: usize,
-    wrong: Wrong,
+    wrong: FaultCounts,
     wrong_rate: f64,
     judged: usize,
     ulp: Percentiles,
@@ -97,13 +97,13 @@ fn input(problem: &Problem) -> [String; 10] {
     numbers(problem).map(hexadecimal)
 }
 
-fn settings(stability: &Stability) -> impl Iterator<Item = Setting> {
+fn settings(stability: &Stability) -> impl Iterator<Item = SettingJson> {
     stability.sweeps.iter().flat_map(move |sweep| {
         sweep.steps.iter().flat_map(move |step| {
-            let one = move |(method, cell): (&crate::method::Method, &Cell)| {
+            let one = move |(method, cell): (&crate::method::Method, &MethodErrors)| {
                 let errors = &cell.errors;
                 let wrong = errors.wrong;
-                Setting {
+                SettingJson {
                     dial: sweep.dial.name,
                     k: step.k,
                     method: method.name(),
@@ -127,7 +127,7 @@ fn settings(stability: &Stability) -> impl Iterator<Item = Setting> {
     })
 }
 
-fn breakdowns(stability: &Stability) -> impl Iterator<Item = Breakdown> {
+fn breakdowns(stability: &Stability) -> impl Iterator<Item = BreakdownJson> {
     stability.sweeps.iter().flat_map(move |sweep| {
         stability
             .methods
@@ -135,12 +135,12 @@ fn breakdowns(stability: &Stability) -> impl Iterator<Item = Breakdown> {
             .enumerate()
             .map(move |(i, method)| {
                 let at = stability.breakdown(sweep, i);
-                let place = |found, theory| Place {
+                let place = |found, theory| EventJson {
                     found,
                     theory,
                     agree: agree(found, theory, sweep.dial.step()),
                 };
-                Breakdown {
+                BreakdownJson {
                     dial: sweep.dial.name,
                     quantity: sweep.dial.quantity,
                     method: method.name(),
@@ -151,11 +151,11 @@ fn breakdowns(stability: &Stability) -> impl Iterator<Item = Breakdown> {
     })
 }
 
-fn inputs(stability: &Stability) -> impl Iterator<Item = Inputs> {
+fn inputs(stability: &Stability) -> impl Iterator<Item = InputsJson> {
     stability.sweeps.iter().flat_map(|sweep| {
         sweep.steps.iter().filter_map(|step| {
-            let super::Inputs { changed, ulp } = step.inputs?;
-            Some(Inputs {
+            let super::InputRounding { changed, ulp } = step.inputs?;
+            Some(InputsJson {
                 dial: sweep.dial.name,
                 k: step.k,
                 rays: step.census.rays,
@@ -168,13 +168,13 @@ fn inputs(stability: &Stability) -> impl Iterator<Item = Inputs> {
 
 /// The report as one JSON object.
 pub fn json(stability: &Stability) -> String {
-    let promises = stability.kept.iter().map(|kept| Promise {
+    let promises = stability.kept.iter().map(|kept| PromiseJson {
         method: kept.method.name(),
         asked: kept.asked,
         broken: kept.broken,
         first: kept.first.as_ref().map(input),
     });
-    let checks = stability.checks.iter().map(|check| Check {
+    let checks = stability.checks.iter().map(|check| CheckJson {
         name: check.name,
         method: check.method.name(),
         rays: check.rays,
@@ -182,7 +182,7 @@ pub fn json(stability: &Stability) -> String {
         passed: check.failed == 0,
         first: check.first.as_ref().map(input),
     });
-    report::json(&Document {
+    report::json(&StabilityJson {
         rayscope: env!("CARGO_PKG_VERSION"),
         seed: stability.seed,
         rays: stability.rays,
@@ -198,7 +198,7 @@ pub fn json(stability: &Stability) -> String {
 }
 
 /// The columns of the CSV.
-const COLUMNS: [Field<Line>; 21] = [
+const COLUMNS: [DataColumn<SettingLine>; 21] = [
     ("dial", |(_, s)| s.dial.to_owned()),
     ("k", |(_, s)| s.k.to_string()),
     ("method", |(_, s)| s.method.to_owned()),
@@ -223,7 +223,7 @@ const COLUMNS: [Field<Line>; 21] = [
 ];
 
 /// The seed, and one setting.
-type Line = (u64, Setting);
+type SettingLine = (u64, SettingJson);
 
 fn optional(number: Option<f64>) -> String {
     number.map_or(String::new(), |number| number.to_string())

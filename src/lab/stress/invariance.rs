@@ -3,9 +3,9 @@
 
 use crate::geometry::{Ray, Sphere};
 use crate::lab::families::Family;
-use crate::lab::random::power_of_two;
 use crate::lab::{Problem, Reference};
 use crate::method::{Method, Solution};
+use crate::random::power_of_two;
 
 /// One thing that must hold, for one method.
 #[derive(Debug, Clone, PartialEq)]

@@ -14,7 +14,7 @@ pub use theory::AGREEMENT;
 use super::dials::Dial;
 use super::errors::{Census, Errors, Percentiles};
 use super::promise;
-use super::reference::{Reference, Root};
+use super::reference::{Reference, ReferenceRoot};
 use super::{Checksum, Problem};
 use crate::geometry::{Ray, Sphere};
 pub use crate::method::bits_lost;
@@ -22,7 +22,7 @@ use crate::method::{Method, Solution};
 
 /// One method at one setting of a dial.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Cell {
+pub struct MethodErrors {
     /// What it got wrong.
     pub errors: Errors,
     /// The blame err/(κu) of the worse root, over the rays that are judged.
@@ -31,7 +31,7 @@ pub struct Cell {
     pub moved: usize,
 }
 
-impl Cell {
+impl MethodErrors {
     /// Bits that the answers lost: the median.
     pub fn bits_median(&self) -> Option<f64> {
         (self.errors.judged > 0).then(|| bits_lost(self.errors.ulp.p50))
@@ -45,20 +45,20 @@ impl Cell {
 
 /// All methods at one setting of a dial.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Step {
+pub struct DialSetting {
     /// The dial stands at 2^k.
     pub k: i32,
     /// The classes of the rays.
     pub census: Census,
     /// The methods, in the order of the report.
-    pub cells: Vec<Cell>,
+    pub cells: Vec<MethodErrors>,
     /// What rounding the inputs did before any method was asked, where a dial is about that.
-    pub inputs: Option<Inputs>,
+    pub inputs: Option<InputRounding>,
 }
 
 /// What rounding p0, d, c and r to binary32 did to the exact roots.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Inputs {
+pub struct InputRounding {
     /// Rays that hit before and miss now, or the reverse.
     pub changed: usize,
     /// How far the worse root moved, in ulp.
@@ -71,7 +71,7 @@ pub struct Sweep {
     /// What was swept.
     pub dial: &'static Dial,
     /// From tame to broken.
-    pub steps: Vec<Step>,
+    pub steps: Vec<DialSetting>,
 }
 
 /// Where a method breaks down on a dial, as exponents k of the dial's value.
@@ -127,8 +127,8 @@ impl Stability {
 
     /// Where the method with that place in the report breaks down on a dial.
     pub fn breakdown(&self, sweep: &Sweep, method: usize) -> Breakdown {
-        let first = |count: fn(&Cell) -> usize| {
-            let of = |step: &Step| count(&step.cells[method]);
+        let first = |count: fn(&MethodErrors) -> usize| {
+            let of = |step: &DialSetting| count(&step.cells[method]);
             let tame = sweep.steps.first().map_or(0, of);
             let found = sweep.steps.iter().find(|step| of(step) > tame);
             found.map(|step| step.k)
@@ -224,7 +224,7 @@ fn sweep(
         }
         let cell =
             |method: &Method| measure(dial, k, &problems, &references, |r, s| method.solve(r, s));
-        Some(Step {
+        Some(DialSetting {
             k,
             census: Census::of(&references),
             cells: plan.methods.iter().map(cell).collect(),
@@ -237,7 +237,7 @@ fn sweep(
     Some(Sweep { dial, steps })
 }
 
-fn inputs(plan: &StressPlan, dial: &Dial, k: i32, references: &[Reference]) -> Inputs {
+fn inputs(plan: &StressPlan, dial: &Dial, k: i32, references: &[Reference]) -> InputRounding {
     let intents = dial.sample_with_intent(plan.seed, k, plan.rays);
     let mut changed = 0;
     let mut moved = Vec::new();
@@ -254,7 +254,7 @@ fn inputs(plan: &StressPlan, dial: &Dial, k: i32, references: &[Reference]) -> I
             _ => changed += 1,
         }
     }
-    Inputs {
+    InputRounding {
         changed,
         ulp: Percentiles::of(&mut moved),
     }
@@ -279,7 +279,7 @@ pub fn measure(
     problems: &[Problem],
     references: &[Reference],
     solve: impl Fn(&Ray, &Sphere) -> Solution,
-) -> Cell {
+) -> MethodErrors {
     let mut blames = Vec::new();
     let mut moved = 0;
     for (problem, truth) in problems.iter().zip(references) {
@@ -291,7 +291,7 @@ pub fn measure(
         let half_pixel = dial.pixel(k) / 2.0 * f64::from(problem.1.radius);
         moved += usize::from(shift(problem, truth, &answer) > half_pixel);
     }
-    Cell {
+    MethodErrors {
         errors: Errors::of(problems, references, solve),
         blame: Percentiles::of(&mut blames),
         moved,
@@ -325,6 +325,6 @@ fn shift((ray, _): &Problem, truth: &Reference, answer: &Solution) -> f64 {
     }
 }
 
-fn rightly_infinite(root: &Root, answer: f32) -> bool {
+fn rightly_infinite(root: &ReferenceRoot, answer: f32) -> bool {
     answer.is_infinite() && answer == root.rounded
 }

@@ -1,7 +1,7 @@
 //! The stability sweeps for people: as text of 80 columns, and the same in Markdown.
 
 use super::theory::{AGREEMENT, agree};
-use super::{Cell, Check, Stability, Step, Sweep, bits_lost, invariance};
+use super::{Check, DialSetting, MethodErrors, Stability, Sweep, bits_lost, invariance};
 use crate::lab::bench::text::code;
 use crate::lab::numbers;
 use crate::method::Method;
@@ -43,7 +43,7 @@ fn section(stability: &Stability, sweep: &Sweep) -> Report {
 const ROWS: usize = 16;
 
 /// The settings that a table shows: the first, the last, and some between.
-fn chosen(sweep: &Sweep) -> impl Iterator<Item = &Step> {
+fn chosen(sweep: &Sweep) -> impl Iterator<Item = &DialSetting> {
     let stride = sweep.steps.len().div_ceil(ROWS).max(1);
     let last = sweep.steps.len().saturating_sub(1);
     sweep
@@ -54,10 +54,10 @@ fn chosen(sweep: &Sweep) -> impl Iterator<Item = &Step> {
         .map(|(_, step)| step)
 }
 
-fn grid(stability: &Stability, sweep: &Sweep, show: fn(&Cell, usize) -> String) -> Table {
+fn grid(stability: &Stability, sweep: &Sweep, show: fn(&MethodErrors, usize) -> String) -> Table {
     let methods = stability.methods.iter().map(|method| method.name());
     let names = std::iter::once(sweep.dial.quantity).chain(methods);
-    let row = |step: &Step| {
+    let row = |step: &DialSetting| {
         let found = step.cells.iter().map(|cell| show(cell, step.census.rays));
         std::iter::once(format!("2^{}", step.k))
             .chain(found)
@@ -71,7 +71,7 @@ fn inputs(sweep: &Sweep) -> Report {
     if !sweep.dial.rounds_inputs() {
         return Report::new();
     }
-    let row = |step: &Step| {
+    let row = |step: &DialSetting| {
         let [changed, bits] = step.inputs.map_or([const { String::new() }; 2], |inputs| {
             let [median, worst] = [inputs.ulp.p50, inputs.ulp.max].map(bits_lost);
             [
@@ -92,7 +92,7 @@ fn inputs(sweep: &Sweep) -> Report {
         ))
 }
 
-fn wrong_and_bits(cell: &Cell, rays: usize) -> String {
+fn wrong_and_bits(cell: &MethodErrors, rays: usize) -> String {
     let wrong = in_percent(cell.errors.wrong.total(), rays);
     let bits = |bits: Option<f64>| bits.map_or("-".into(), |bits| format!("{bits:.0}"));
     let (median, worst) = (bits(cell.bits_median()), bits(cell.bits_worst()));
@@ -112,7 +112,7 @@ fn in_percent(part: usize, all: usize) -> String {
     }
 }
 
-fn blame(cell: &Cell, _: usize) -> String {
+fn blame(cell: &MethodErrors, _: usize) -> String {
     if cell.errors.judged == 0 {
         return "-".into();
     }
@@ -327,7 +327,7 @@ pub fn check_table(stability: &Stability) -> Table {
 /// The settings of one dial for Markdown: wrong answers in per cent, bits lost (median/worst), blame
 /// (median/worst).
 pub fn sweep_table(stability: &Stability, sweep: &Sweep) -> Table {
-    let row = |step: &Step| {
+    let row = |step: &DialSetting| {
         let found = step
             .cells
             .iter()
@@ -348,7 +348,7 @@ fn by_method(stability: &Stability, first: Column) -> impl Iterator<Item = Colum
     std::iter::once(first).chain(methods.map(|method| Column::right(code(method.name()))))
 }
 
-fn in_words(cell: &Cell, rays: usize) -> String {
+fn in_words(cell: &MethodErrors, rays: usize) -> String {
     let wrong = match cell.errors.wrong.total() {
         0 => String::new(),
         wrong => format!("**{} %**", in_percent(wrong, rays)),

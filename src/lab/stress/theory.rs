@@ -24,7 +24,7 @@ const ONLY_O: f64 = 2.0;
 
 /// How a method gets D, which is what decides how it breaks down.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Form {
+enum DiscriminantForm {
     /// b² − AC in binary32; b is B/2, or B in the textbook.
     Coefficients { textbook: bool },
     /// r² − ‖o − (b/A)d‖² in binary32.
@@ -35,7 +35,7 @@ enum Form {
     Certified,
 }
 
-impl Form {
+impl DiscriminantForm {
     const fn of(method: Method) -> Self {
         match method {
             Method::Textbook => Self::Coefficients { textbook: true },
@@ -50,14 +50,14 @@ impl Form {
 /// log₂ of the dial's value at the first wrong answer, and at the first hit moved by more than half
 /// a pixel, among `rays` rays a setting; none for never.
 pub(super) fn of(dial: &str, method: Method, rays: usize) -> [Option<f64>; 2] {
-    use Form::{Certified, Coefficients, Lagrange, Perpendicular};
+    use DiscriminantForm::{Certified, Coefficients, Lagrange, Perpendicular};
     let rays = rays as f64;
     // The relative error ε of cos²θ at which one of n rays, spread evenly from the centre to half a
     // radius outside, comes out on the wrong side: 2/n. And at which one of them moves by r/20:
     // ε/(2 cosθ) > 1/20 and cos²θ < 100ε², as 100ε²n/3 of them have.
     let side = (2.0 / rays).log2();
     let half_pixel = (0.02 / rays).sqrt().log2();
-    match (dial, Form::of(method)) {
+    match (dial, DiscriminantForm::of(method)) {
         // ε = u(‖o‖/r)² where r² is taken from ‖o‖², u‖o‖/r where the line's distance is computed.
         // Rounding t to binary32 moves the hit by u‖o‖ in any case, against r/20.
         ("distance", Coefficients { .. }) => {

@@ -6,6 +6,7 @@
 use glam::{DVec2, DVec3};
 
 use crate::geometry::Sphere;
+use crate::random::Random;
 use crate::scene::{Body, Rgb};
 
 const SPHERES: u32 = 10_000;
@@ -24,7 +25,7 @@ const BLUE: Rgb = Rgb(0x00, 0x72, 0xb2);
 
 /// All of them, from the middle outwards.
 pub(super) fn bodies() -> Vec<Body> {
-    let mut random = Random(2011);
+    let mut random = Random::new(2011);
     let mut along = DVec2::X;
     let mut axis = DVec2::X;
     (0..SPHERES)
@@ -44,14 +45,14 @@ fn body(share: f64, along: DVec2, axis: DVec2, random: &mut Random) -> Body {
     let petal = cosine_of_five_times(along, axis);
     let disc = REACH * out * (1.0 + 0.12 * petal * out) * along;
     let dome = 2.4 * (1.0 - share) + 0.7 * petal * out;
-    let radius = 0.13 + 0.06 * random.unit();
+    let radius = 0.13 + 0.06 * random.uniform(0.0, 1.0);
     Body {
         sphere: Sphere {
             center: DVec3::new(disc.x, dome, disc.y).as_vec3(),
             radius: radius as f32,
         },
         name: None,
-        color: Some(color(out, petal + 0.3 * (random.unit() - 0.5))),
+        color: Some(color(out, petal + 0.3 * (random.uniform(0.0, 1.0) - 0.5))),
     }
 }
 
@@ -77,21 +78,4 @@ fn cosine_of_five_times(u: DVec2, v: DVec2) -> f64 {
 /// `v` turned by the angle whose cosine and sine are `turn`: a product of complex numbers.
 fn turned(v: DVec2, turn: DVec2) -> DVec2 {
     DVec2::new(v.x * turn.x - v.y * turn.y, v.x * turn.y + v.y * turn.x)
-}
-
-/// `SplitMix64` (Steele, Lea and Flood, 2014).
-struct Random(u64);
-
-impl Random {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// A multiple of 2⁻⁵³ from 0 up to, but not including, 1.
-    fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
-    }
 }
