@@ -65,16 +65,10 @@ impl<F: Fn(&Ray, &Sphere) -> Solution> Routine for F {
 
     fn solve_arrays(&self, arrays: &Arrays, answers: &mut Solutions) {
         let batch = arrays.batch();
-        answers.class.clear();
-        answers.near.clear();
-        answers.far.clear();
-        for i in 0..batch.count() {
+        answers.replace((0..batch.count()).map(|i| {
             let (ray, sphere) = batch.get(i);
-            let answer = self(&ray, &sphere);
-            answers.class.push(answer.class);
-            answers.near.push(answer.near);
-            answers.far.push(answer.far);
-        }
+            self(&ray, &sphere)
+        }));
     }
 
     fn solve_chain(&self, problems: &[Problem]) -> u32 {

@@ -193,6 +193,23 @@ impl Solutions {
         }
     }
 
+    /// Puts these answers in the place of those that are there.
+    pub fn replace(&mut self, answers: impl Iterator<Item = Solution>) {
+        self.resize(0);
+        for Solution {
+            class,
+            near,
+            far,
+            place,
+        } in answers
+        {
+            self.class.push(class);
+            self.near.push(near);
+            self.far.push(far);
+            self.place.push(place);
+        }
+    }
+
     /// Makes room for n answers, in what is there already if it suffices.
     fn resize(&mut self, n: usize) {
         self.class.resize(n, Class::Miss);
