@@ -7,7 +7,7 @@ use std::fs;
 use ratatui::buffer::Buffer;
 use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 use ratatui::layout::Rect;
-use rayscope::explorer::{Explorer, Options};
+use rayscope::explorer::{Explorer, Options, Setting};
 use rayscope::render::{ColorDepth, Style};
 use rayscope::scene::Scene;
 use rayscope::terminal::{Limits, Painter};
@@ -23,14 +23,16 @@ struct Wire {
 }
 
 impl Wire {
-    fn opens(size: (u16, u16), columns: u16, options: Options) -> Self {
-        Self::opens_as(false, size, columns, options)
+    fn opens(size: (u16, u16), columns: u16, start: Start) -> Self {
+        Self::opens_as(false, size, columns, start)
     }
 
     /// The same, with the picture drawn coarsely or not.
-    fn opens_as(coarse: bool, size: (u16, u16), columns: u16, options: Options) -> Self {
+    fn opens_as(coarse: bool, size: (u16, u16), columns: u16, start: Start) -> Self {
         let (scene, source) = Scene::open("trio").expect("a scene");
-        let mut explorer = Explorer::new(scene, &source, options);
+        let mut explorer = Explorer::new(scene, &source, start.options);
+        let style = Setting::Style(start.style);
+        explorer.set_out(&[style]).expect("a place");
         explorer.set_coarse(coarse);
         let mut wire = Self {
             explorer,
@@ -68,16 +70,28 @@ impl Wire {
 const SMALL: (u16, u16) = (80, 24);
 const LARGE: (u16, u16) = (200, 60);
 
-fn half() -> Options {
-    Options::default()
+/// How the explorer opens.
+#[derive(Clone, Copy)]
+struct Start {
+    style: Style,
+    options: Options,
 }
 
-fn ascii() -> Options {
-    Options {
+fn half() -> Start {
+    Start {
+        style: Style::Half,
+        options: Options::default(),
+    }
+}
+
+fn ascii() -> Start {
+    Start {
         style: Style::Ascii,
-        depth: ColorDepth::None,
-        glyphs: Glyphs::Ascii,
-        ..Options::default()
+        options: Options {
+            depth: ColorDepth::None,
+            glyphs: Glyphs::Ascii,
+            ..Options::default()
+        },
     }
 }
 
@@ -87,18 +101,18 @@ fn picture((cols, _): (u16, u16)) -> u16 {
 }
 
 /// The costs of all steps that the camera can take from where it opens, ascending.
-fn camera_steps(coarse: bool, size: (u16, u16), columns: u16, options: Options) -> Vec<usize> {
+fn camera_steps(coarse: bool, size: (u16, u16), columns: u16, start: Start) -> Vec<usize> {
     let keys = "adwsADWSeE+-".chars();
     let mut costs: Vec<_> = keys
-        .map(|key| Wire::opens_as(coarse, size, columns, options).presses(KeyCode::Char(key)))
+        .map(|key| Wire::opens_as(coarse, size, columns, start).presses(KeyCode::Char(key)))
         .collect();
     costs.sort_unstable();
     costs
 }
 
 /// The dearest of them.
-fn camera_step(size: (u16, u16), columns: u16, options: Options) -> usize {
-    dearest(&camera_steps(false, size, columns, options))
+fn camera_step(size: (u16, u16), columns: u16, start: Start) -> usize {
+    dearest(&camera_steps(false, size, columns, start))
 }
 
 fn dearest(ascending: &[usize]) -> usize {
@@ -106,16 +120,16 @@ fn dearest(ascending: &[usize]) -> usize {
 }
 
 /// The cost of a step of the orbit, half of which cost less, on the way about the scene.
-fn orbit_step(size: (u16, u16), columns: u16, options: Options) -> usize {
-    let mut wire = Wire::opens(size, columns, options);
+fn orbit_step(size: (u16, u16), columns: u16, start: Start) -> usize {
+    let mut wire = Wire::opens(size, columns, start);
     let mut costs: Vec<_> = (0..12).map(|_| wire.presses(KeyCode::Char('d'))).collect();
     costs.sort_unstable();
     costs[costs.len() / 2]
 }
 
 /// The cost of a cursor step, half of which cost less, on a walk over all three spheres.
-fn cursor_step(size: (u16, u16), options: Options) -> usize {
-    let mut wire = Wire::opens(size, size.0, options);
+fn cursor_step(size: (u16, u16), start: Start) -> usize {
+    let mut wire = Wire::opens(size, size.0, start);
     let walk = [KeyCode::Right, KeyCode::Down, KeyCode::Left, KeyCode::Left];
     let mut costs: Vec<_> = (0..36).map(|i| wire.presses(walk[i / 3 % 4])).collect();
     costs.sort_unstable();
@@ -124,14 +138,14 @@ fn cursor_step(size: (u16, u16), options: Options) -> usize {
 
 #[test]
 fn a_step_keeps_to_its_budget() {
-    for (what, size, options, budget) in [
+    for (what, size, start, budget) in [
         ("half blocks", SMALL, half(), 2500),
         ("ASCII", SMALL, ascii(), 700),
         ("half blocks", LARGE, half(), 9000),
     ] {
         for bytes in [
-            camera_step(size, size.0, options),
-            orbit_step(size, size.0, options),
+            camera_step(size, size.0, start),
+            orbit_step(size, size.0, start),
         ] {
             assert!(bytes <= budget, "{what} at {size:?}: {bytes} bytes");
         }
@@ -146,8 +160,8 @@ fn a_step_keeps_to_its_budget() {
         bytes <= 2300,
         "the picture in ASCII at {LARGE:?}: {bytes} bytes"
     );
-    for options in [half(), ascii()] {
-        let bytes = cursor_step(SMALL, options);
+    for start in [half(), ascii()] {
+        let bytes = cursor_step(SMALL, start);
         // 0.3 KB of 1024 bytes.
         assert!(bytes <= 307, "a cursor step: {bytes} bytes");
     }
@@ -172,20 +186,20 @@ fn the_table_of_the_docs_is_what_the_encoder_writes() {
     for style in Style::ALL {
         for depth in ColorDepth::ALL.into_iter().rev() {
             let options = Options {
-                style,
                 depth,
                 ..Options::default()
             };
+            let start = Start { style, options };
             // Writing to a string does not fail.
             let _ = write!(table, "| {} | {} |", style.name(), depth.name());
             for size in [SMALL, LARGE] {
                 let _ = write!(
                     table,
                     " {} | {} | {} | {} |",
-                    camera_step(size, size.0, options),
-                    dearest(&camera_steps(true, size, size.0, options)),
-                    camera_step(size, picture(size), options),
-                    cursor_step(size, options),
+                    camera_step(size, size.0, start),
+                    dearest(&camera_steps(true, size, size.0, start)),
+                    camera_step(size, picture(size), start),
+                    cursor_step(size, start),
                 );
             }
             table.push('\n');

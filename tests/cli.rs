@@ -321,7 +321,7 @@ const ABSURD: &[(&str, &str)] = &[
     ),
     (
         "tutorial --plain --sphere 0",
-        "--sphere 0: expected a sphere",
+        "expected a whole number from 1",
     ),
     ("tutorial --plain --sphere -1", "--sphere"),
     ("tutorial --plain --shown 7", "--shown 7: expected a sphere"),

@@ -15,7 +15,7 @@ use ratatui::layout::Rect;
 use ratatui::style::Color;
 use rayscope::explain::{Digits, number};
 use rayscope::explorer::action::{Action, markdown};
-use rayscope::explorer::{Explorer, Options, Request, Workplace};
+use rayscope::explorer::{Explorer, Options, Request, Setting, Workplace};
 use rayscope::geometry::Ray;
 use rayscope::lab::{BenchQueue, HEADER};
 use rayscope::method::{Class, Method, Precision};
@@ -38,12 +38,12 @@ impl Person {
         Self::with(name, cols, rows, textbook())
     }
 
-    fn with(name: &str, cols: u16, rows: u16, options: Options) -> Self {
+    fn with(name: &str, cols: u16, rows: u16, start: Start) -> Self {
         let (scene, source) = Scene::open(name).expect("a scene");
         let folder = tempfile::tempdir().expect("a folder");
         let workplace = Workplace::within(folder.path());
         let queue = workplace.queue.clone();
-        let mut explorer = Explorer::new(scene, &source, options);
+        let mut explorer = Explorer::new(scene, &source, start.options);
         explorer.work_in(workplace, &source);
         let mut person = Self {
             explorer,
@@ -51,6 +51,7 @@ impl Person {
             folder,
             queue,
         };
+        person.explorer.set_out(&start.settings()).expect("a place");
         person.screen();
         person
     }
@@ -100,10 +101,28 @@ impl Person {
     }
 }
 
-fn textbook() -> Options {
-    Options {
+/// How a person's explorer opens.
+#[derive(Clone, Copy, Default)]
+struct Start {
+    method: Method,
+    style: Option<Style>,
+    options: Options,
+}
+
+impl Start {
+    fn settings(self) -> Vec<Setting> {
+        let style = self.style.map(Setting::Style);
+        [Setting::Method(self.method)]
+            .into_iter()
+            .chain(style)
+            .collect()
+    }
+}
+
+fn textbook() -> Start {
+    Start {
         method: Method::Textbook,
-        ..Options::default()
+        ..Start::default()
     }
 }
 
@@ -183,10 +202,14 @@ fn a_screen_in_ascii_has_no_byte_above_127() {
     let options = Options {
         glyphs: rayscope::text::Glyphs::Ascii,
         depth: ColorDepth::None,
-        ..textbook()
+        ..Options::default()
     };
     for scene in ["tutorial", "trio"] {
-        let mut person = Person::with(scene, 80, 24, options);
+        let start = Start {
+            options,
+            ..textbook()
+        };
+        let mut person = Person::with(scene, 80, 24, start);
         for keys in ["", "?", "esc =", "esc :", "esc b", "b", "b v", "v"] {
             let screen = person.presses(keys).screen();
             assert!(screen.is_ascii(), "after {keys}:\n{screen}");
@@ -196,13 +219,15 @@ fn a_screen_in_ascii_has_no_byte_above_127() {
 
 #[test]
 fn in_ascii_no_step_is_cut_off_and_columns_stay_columns() {
-    let options = Options {
+    let start = Start {
         method: Method::Double,
-        glyphs: Glyphs::Ascii,
-        style: Style::Ascii,
-        ..Options::default()
+        style: Some(Style::Ascii),
+        options: Options {
+            glyphs: Glyphs::Ascii,
+            ..Options::default()
+        },
     };
-    let mut person = Person::with("far", 80, 24, options);
+    let mut person = Person::with("far", 80, 24, start);
     let column = |person: &mut Person, row: &str| {
         let screen = person.screen();
         let line = screen
@@ -618,11 +643,11 @@ fn what_a_method_gets_wrong_is_never_what_there_is_no_room_for() {
     let mut wrong = 0;
     for scene in ["far", "grazing"] {
         for method in Method::ALL {
-            let options = Options {
+            let start = Start {
                 method,
-                ..Options::default()
+                ..Start::default()
             };
-            let mut person = Person::with(scene, 80, 24, options);
+            let mut person = Person::with(scene, 80, 24, start);
             for (x, y) in (0..40).step_by(7).flat_map(|x| [(x, 4), (x, 19), (x, 30)]) {
                 person.commands(&format!("cursor {x} {y}"));
                 let screen = person.screen();
@@ -945,7 +970,7 @@ fn two_do_not_measure_at_once_and_one_can_be_stopped() {
     drop(other);
     person
         .waits_for_the_end(&woken)
-        .shows("ns  99 % of the errors");
+        .shows("wrong % p99 ulp    ns");
     person.presses("% %").shows("The measurement was stopped");
     assert!(
         !person.explorer.catch_up(),
@@ -954,9 +979,9 @@ fn two_do_not_measure_at_once_and_one_can_be_stopped() {
     person.presses("1").shows("ray of pixel");
 }
 
-fn ascii_textbook() -> Options {
-    Options {
-        style: Style::Ascii,
+fn ascii_textbook() -> Start {
+    Start {
+        style: Some(Style::Ascii),
         ..textbook()
     }
 }
@@ -1188,11 +1213,11 @@ fn the_guide_lists_the_keys_that_there_are() {
 
 #[test]
 fn the_readme_shows_the_real_screen() {
-    let options = Options {
-        style: Style::Ascii,
-        ..Options::default()
+    let start = Start {
+        style: Some(Style::Ascii),
+        ..Start::default()
     };
-    let screen = Person::with("trio", 80, 24, options).screen();
+    let screen = Person::with("trio", 80, 24, start).screen();
     hold_to_docs("README.md", "screen", &format!("```text\n{screen}```\n"));
 }
 

@@ -9,11 +9,9 @@ use std::path::PathBuf;
 use clap::Args;
 
 use super::appearance::{Appearance, default_style, is_anybody_present};
-use super::place::Place;
-use super::{Failure, Outcome, aspect, choice, complain};
-use crate::explorer::{Explorer, Opening, Options, Workplace};
-use crate::method::Method;
-use crate::render::{Style, View};
+use super::place::PlaceFlags;
+use super::{Failure, Outcome, complain};
+use crate::explorer::{Explorer, Options, Setting, Workplace};
 use crate::scene::{Scene, Source};
 use crate::terminal::{self, Session};
 
@@ -24,27 +22,11 @@ pub(super) struct Explore {
     #[arg(default_value = "tutorial")]
     scene: OsString,
 
-    /// How the quadratic is evaluated
-    #[arg(long, env = "RAYSCOPE_METHOD", hide_env_values = true, value_parser = choice(&Method::ALL, Method::name), default_value_t = Method::default())]
-    method: Method,
-
-    /// How samples become characters [default: half where there are colours, else ascii]
-    #[arg(long, env = "RAYSCOPE_STYLE", hide_env_values = true, value_parser = choice(&Style::ALL, Style::name))]
-    style: Option<Style>,
-
-    /// What the picture shows
-    #[arg(long, value_parser = choice(&View::ALL, View::name))]
-    view: Option<View>,
-
-    /// Height of a character cell over its width
-    #[arg(long, default_value_t = Options::default().aspect, value_parser = aspect)]
-    aspect: f64,
-
     #[command(flatten)]
     appearance: Appearance,
 
     #[command(flatten)]
-    place: Place,
+    place: PlaceFlags<false>,
 }
 
 /// Opens the explorer and ends with the exit status that the person left it with.
@@ -61,33 +43,32 @@ pub(super) fn opened(
     fit: impl FnOnce(Options) -> Result<Options, Failure>,
 ) -> Result<(Explorer, Source), Failure> {
     let (scene, source) = Scene::open(&arguments.scene).map_err(Failure::invalid)?;
-    let defaults = Options::default();
-    let options = fit(Options {
-        method: arguments.method,
-        view: arguments.view.unwrap_or(defaults.view),
-        aspect: arguments.aspect,
-        ..defaults
-    })?;
-    let by_default = || default_style(options.colors(), options.glyphs);
-    let options = Options {
-        style: arguments.style.unwrap_or_else(by_default),
-        ..options
-    };
-    let opening = arguments.place.opening();
-    let explorer = set_out(&opening, || Explorer::new(scene.clone(), &source, options))?;
+    let options = fit(Options::default())?;
+    // What is asked for comes after, and wins.
+    let mut settings = vec![Setting::Style(default_style(
+        options.colors(),
+        options.glyphs,
+    ))];
+    settings.extend_from_slice(&arguments.place.settings);
+    let explorer = set_out(&settings, || Explorer::new(scene.clone(), &source, options))?;
     Ok((explorer, source))
 }
 
 /// An explorer at the place that is asked for, or what is wrong with that place.
-pub(super) fn set_out(opening: &Opening, new: impl Fn() -> Explorer) -> Result<Explorer, Failure> {
+pub(super) fn set_out(
+    settings: &[Setting],
+    new: impl Fn() -> Explorer,
+) -> Result<Explorer, Failure> {
     let at_place = || {
         let mut explorer = new();
-        explorer.set_out(opening).map_err(Failure::misused)?;
+        explorer.set_out(settings).map_err(Failure::misused)?;
         Ok(explorer)
     };
     // Only the picture tells whether there is such a step. A link from a screen of another size may
     // come to a pixel that lacks it: then the explorer says so itself.
-    if opening.step.is_some() && opening.size.is_none() {
+    let names = |is: fn(&Setting) -> bool| settings.iter().any(is);
+    let of_other_screen = names(|setting| matches!(setting, Setting::Size(_)));
+    if names(|setting| matches!(setting, Setting::Step(_))) && !of_other_screen {
         let rehearsed = at_place()?.rehearse();
         rehearsed.map_err(|e| Failure::misused(format_args!("--{e}")))?;
     }

@@ -53,7 +53,7 @@ enum Command {
     Scenes(scenes::Scenes),
     Solve(solve::Solve),
     Stress(stress::StressArgs),
-    Tour(Box<tour::Tour>),
+    Tour(Box<tour::TourArgs>),
     Worksheet(worksheet::WorksheetArgs),
 }
 
@@ -152,11 +152,4 @@ fn from_one(text: &str) -> Result<usize, String> {
 /// Reads what random numbers start from.
 fn seed(text: &str) -> Result<u64, String> {
     whole(0, u64::MAX)(text)
-}
-
-/// Reads a finite number.
-fn finite(text: &str) -> Result<f64, String> {
-    read::binary64(text)
-        .filter(|x| x.is_finite())
-        .ok_or_else(|| "expected a finite number, such as 7.5".into())
 }

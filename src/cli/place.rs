@@ -1,69 +1,102 @@
-//! Flags that say where in a scene the explorer opens: what a passed-on view consists of.
+//! Flags that say how and where in a scene the explorer opens: what a passed-on view consists of.
 
-use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser, ValueParser};
+use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 
-use super::print::{pixel, size};
-use super::{choice, finite, from_one};
-use crate::explorer::{Opening, Panel};
+use crate::explorer::{SETTINGS, Setting, SettingRow};
 use crate::method::Method;
-use crate::scene::Size;
+use crate::text::former_names;
 
-/// Where in the scene to open.
-#[derive(Debug, Args)]
-#[command(next_help_heading = "Where to open")]
-pub(super) struct Place {
-    /// The pixel under the cursor
-    #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
-    cursor: Option<(u32, u32)>,
-
-    /// The picture in which the cursor counts, where the scene fixes none: on a screen of another
-    /// size the cursor is put in the same place
-    #[arg(long, value_name = "WxH", value_parser = size, requires = "cursor")]
-    size: Option<Size>,
-
-    /// The panel beside the picture
-    #[arg(long, value_parser = choice(&Panel::ALL, Panel::name))]
-    panel: Option<Panel>,
-
-    /// The step of the derivation, by name or number
-    #[arg(long, value_name = "STEP")]
-    step: Option<String>,
-
-    /// Where the moving point of slice and curve is
-    #[arg(long = "t", value_name = "T", allow_hyphen_values = true, value_parser = finite)]
-    t: Option<f64>,
-
-    /// The method beside the chosen one
-    #[arg(long, value_name = "METHOD", value_parser = choice(&Method::ALL, Method::name))]
-    compare: Option<Method>,
-
-    /// The sphere that is selected, from 1
-    #[arg(long, value_name = "N", value_parser = from_one, allow_negative_numbers = true)]
-    sphere: Option<usize>,
-
-    /// The sphere that the panel shows, of those on the line under the cursor
-    #[arg(long, value_name = "N", value_parser = from_one, allow_negative_numbers = true)]
-    shown: Option<usize>,
-
-    /// A number of the selected sphere or the camera, as after `:set`; may be repeated
-    #[arg(long, value_name = "KEY=VALUE")]
-    set: Vec<String>,
+/// The settings that were given as flags, made from the table of settings; `TOUR`: on a page, which
+/// has settings of its own.
+#[derive(Debug, Default, Clone)]
+pub(super) struct PlaceFlags<const TOUR: bool> {
+    pub(super) settings: Vec<Setting>,
 }
 
-impl Place {
-    pub(super) fn opening(&self) -> Opening {
-        Opening {
-            set: self.set.clone(),
-            sphere: self.sphere,
-            shown: self.shown,
-            cursor: self.cursor,
-            size: self.size,
-            panel: self.panel,
-            step: self.step.clone(),
-            t: self.t,
-            compare: self.compare,
-            ..Opening::default()
-        }
+/// Flags that stand before those that say where: how the picture is drawn.
+const HOW: [&str; 4] = ["method", "style", "view", "aspect"];
+
+/// The flag of a setting, for a scene.
+fn flag_of_scene(row: &'static SettingRow) -> Option<Arg> {
+    let arg = flag(row, |help| match row.name {
+        "style" => format!("{help} [default: half where there are colours, else ascii]"),
+        "aspect" => format!("{help} [default: 2]"),
+        _ => help.to_owned(),
+    })?;
+    Some(match row.name {
+        "method" => with_variable(arg, "RAYSCOPE_METHOD").default_value(Method::default().name()),
+        "style" => with_variable(arg, "RAYSCOPE_STYLE"),
+        _ => arg,
+    })
+}
+
+/// The flag of a setting, for a page of the tour.
+fn flag_of_page(row: &'static SettingRow) -> Option<Arg> {
+    flag(row, |help| match row.name {
+        "method" | "style" | "view" => format!("{help} [default: as the page has it]"),
+        "aspect" => format!("{help} [default: 2]"),
+        _ => help.to_owned(),
+    })
+}
+
+fn with_variable(arg: Arg, name: &'static str) -> Arg {
+    arg.env(name).hide_env_values(true)
+}
+
+fn flag(row: &'static SettingRow, say: impl FnOnce(&str) -> String) -> Option<Arg> {
+    let (value, help) = row.flag?;
+    let names = (row.choices)();
+    let parser = if names.is_empty() || row.name == "set" {
+        ValueParser::new(|text: &str| row.parse(text))
+    } else {
+        let values = names.into_iter().map(|name| {
+            let former: Vec<_> = former_names(&name).collect();
+            PossibleValue::new(name).aliases(former)
+        });
+        let names = PossibleValuesParser::new(values);
+        ValueParser::new(names.try_map(|name| row.parse(&name)))
+    };
+    let arg = Arg::new(row.name)
+        .long(row.name)
+        .value_name(value)
+        .help(say(help))
+        .value_parser(parser)
+        .allow_hyphen_values(["cursor", "t", "sphere", "shown"].contains(&row.name));
+    Some(match row.name {
+        "size" => arg.requires("cursor"),
+        "set" => arg.action(ArgAction::Append),
+        _ => arg,
+    })
+}
+
+impl<const TOUR: bool> Args for PlaceFlags<TOUR> {
+    fn augment_args(command: Command) -> Command {
+        let is_how = |row: &&SettingRow| HOW.contains(&row.name);
+        let flag = if TOUR { flag_of_page } else { flag_of_scene };
+        let how = SETTINGS.iter().filter(is_how).filter_map(flag);
+        let place = SETTINGS.iter().filter(|row| !is_how(row)).filter_map(flag);
+        command
+            .args(how.map(|arg| arg.help_heading(None::<&str>)))
+            .args(place.map(|arg| arg.help_heading("Where to open")))
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Self::augment_args(command)
+    }
+}
+
+impl<const TOUR: bool> FromArgMatches for PlaceFlags<TOUR> {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        let given = |row: &SettingRow| matches.get_many::<Setting>(row.name);
+        let flags = SETTINGS.iter().filter(|row| row.flag.is_some());
+        let settings = flags.filter_map(given).flatten().cloned().collect();
+        Ok(Self { settings })
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
     }
 }
 
@@ -74,9 +107,9 @@ mod tests {
     use clap::Parser;
     use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 
-    use super::super::{Arguments, Command, Failure, explore, tour};
+    use super::super::{Arguments, Command as Subcommand, Failure, explore, tour};
     use crate::explain::{Digits, lines, plain_text};
-    use crate::explorer::{Explorer, Options, command_line};
+    use crate::explorer::{Explorer, Viewpoint, command_line};
     use crate::text::Glyphs;
 
     /// Opens what a command line asks for, on a screen of 80 by 24.
@@ -85,7 +118,7 @@ mod tests {
         let arguments = Arguments::try_parse_from(all).map_err(Failure::misused)?;
         let mut explorer = match arguments.command {
             None => explore::opened(&arguments.explore, Ok)?.0,
-            Some(Command::Tour(arguments)) => tour::opened(&arguments, Ok)?,
+            Some(Subcommand::Tour(arguments)) => tour::opened(&arguments, Ok)?,
             Some(other) => panic!("{other:?} opens no explorer"),
         };
         explorer.prepare(80, 24);
@@ -117,13 +150,13 @@ mod tests {
             Glyphs::Unicode,
         );
         let scene = explorer.scene().to_toml();
-        let Options {
+        let Viewpoint {
             method,
             style,
             view,
-            aspect,
             ..
-        } = explorer.options();
+        } = explorer.viewpoint();
+        let aspect = explorer.options().aspect;
         let looks = format!("{method} {style:?} {view:?} {aspect}");
         format!("{}{looks}\n{scene}", plain_text(&lines))
     }
@@ -208,10 +241,6 @@ mod tests {
                 "--set: radius is -1: expected a radius of zero or more",
             ),
             (
-                "trio --set radius=nan",
-                "--set radius=nan: radius is “nan”: expected a finite number",
-            ),
-            (
                 "tutorial --step 99",
                 "--step: found “99”, expected a step's name or 1 to 23",
             ),
@@ -226,6 +255,10 @@ mod tests {
         for (line, part) in [
             ("tutorial --size 9x9", "--cursor"),
             ("tutorial --t nan", "--t"),
+            (
+                "trio --set radius=nan",
+                "radius is “nan”: expected a finite number",
+            ),
             ("tutorial --t 0x1.8q", "0x1.8q"),
             ("trio --set size=1", "expected one of center.x, center.y"),
         ] {

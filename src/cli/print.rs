@@ -18,6 +18,8 @@ use crate::scene::{PixelShape, Rays, Scene, Size};
 use crate::terminal::Capability;
 use crate::text::Glyphs;
 
+pub(super) use crate::explorer::read_size as size;
+
 /// Draw a scene once, as text
 #[derive(Debug, Args)]
 pub(super) struct Print {
@@ -258,19 +260,6 @@ fn change_colors(
     }
 }
 
-pub(super) fn size(text: &str) -> Result<Size, String> {
-    let side = |digits: &str| {
-        let number = digits.parse().ok()?;
-        (1..=Size::LARGEST).contains(&number).then_some(number)
-    };
-    text.split_once(['x', 'X', '×'])
-        .and_then(|(width, height)| Some(Size::new(side(width)?, side(height)?)))
-        .ok_or_else(|| {
-            let most = Size::LARGEST;
-            format!("expected a width and a height, each from 1 to {most}, such as 80x48")
-        })
-}
-
 pub(super) fn pixel(text: &str) -> Result<(u32, u32), String> {
     text.split_once(',')
         .and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)))
@@ -281,17 +270,6 @@ pub(super) fn pixel(text: &str) -> Result<(u32, u32), String> {
 mod tests {
     use super::*;
     use crate::scene::Rgb;
-
-    #[test]
-    fn sizes_are_two_numbers_in_range() {
-        assert_eq!(size("80x48"), Ok(Size::new(80, 48)));
-        assert_eq!(size("1X4096"), Ok(Size::new(1, 4096)));
-        for bad in [
-            "", "80", "80x", "x48", "0x1", "80x-1", "80x48x2", "4097x1", "8e1x1",
-        ] {
-            assert!(size(bad).is_err(), "{bad}");
-        }
-    }
 
     #[test]
     fn a_colour_is_written_where_it_changes_and_ends_with_its_line() {

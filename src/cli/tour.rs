@@ -8,17 +8,15 @@ use std::sync::Arc;
 use clap::Args;
 
 use super::appearance::Appearance;
-use super::place::Place;
-use super::{Failure, Outcome, aspect, choice, explore, from_one, write_out};
+use super::place::PlaceFlags;
+use super::{Failure, Outcome, explore, from_one, write_out};
 use crate::explorer::tour::{self, Chapter};
-use crate::explorer::{Explorer, Opening, Options, Workplace};
-use crate::method::Method;
-use crate::render::{Style, View};
+use crate::explorer::{Explorer, Options, Workplace};
 use crate::scene::{Builtin, Source};
 
 /// Walk through the tutorial, page by page, on live scenes
 #[derive(Debug, Args)]
-pub(super) struct Tour {
+pub(super) struct TourArgs {
     /// A chapter's name or number; or the file of a chapter, or a folder of them, of your own
     #[arg(default_value = "1")]
     chapter: OsString,
@@ -31,31 +29,15 @@ pub(super) struct Tour {
     #[arg(long, conflicts_with = "page")]
     list: bool,
 
-    /// How the quadratic is evaluated [default: as the page has it]
-    #[arg(long, value_parser = choice(&Method::ALL, Method::name))]
-    method: Option<Method>,
-
-    /// How samples become characters [default: as the page has it]
-    #[arg(long, value_parser = choice(&Style::ALL, Style::name))]
-    style: Option<Style>,
-
-    /// What the picture shows [default: as the page has it]
-    #[arg(long, value_parser = choice(&View::ALL, View::name))]
-    view: Option<View>,
-
-    /// Height of a character cell over its width
-    #[arg(long, default_value_t = Options::default().aspect, value_parser = aspect)]
-    aspect: f64,
-
     #[command(flatten)]
     appearance: Appearance,
 
     #[command(flatten)]
-    place: Place,
+    place: PlaceFlags<true>,
 }
 
 /// Opens the tour, or lists its chapters.
-pub(super) fn run(arguments: &Tour) -> Outcome {
+pub(super) fn run(arguments: &TourArgs) -> Outcome {
     if arguments.list {
         return write_out(&list(&chapters(&arguments.chapter)?.0));
     }
@@ -66,7 +48,7 @@ pub(super) fn run(arguments: &Tour) -> Outcome {
 
 /// The explorer on the page that is asked for.
 pub(super) fn opened(
-    arguments: &Tour,
+    arguments: &TourArgs,
     fit: impl FnOnce(Options) -> Result<Options, Failure>,
 ) -> Result<Explorer, Failure> {
     let (chapters, at) = chapters(&arguments.chapter)?;
@@ -75,18 +57,9 @@ pub(super) fn opened(
         let sentence = format!("--page {page}: expected a page from 1 to {pages}");
         return Err(Failure::misused(sentence));
     }
-    let options = fit(Options {
-        aspect: arguments.aspect,
-        ..Options::default()
-    })?;
+    let options = fit(Options::default())?;
     let own = Builtin::default();
-    let opening = Opening {
-        method: arguments.method,
-        style: arguments.style,
-        view: arguments.view,
-        ..arguments.place.opening()
-    };
-    explore::set_out(&opening, || {
+    explore::set_out(&arguments.place.settings, || {
         let mut explorer = Explorer::new(own.scene(), &Source::Builtin(own), options);
         explorer.work_in(Workplace::of_process(None), &Source::Builtin(own));
         explorer.start_tour(Arc::clone(&chapters), at, page - 1);

@@ -3,7 +3,6 @@
 
 use glam::Vec3;
 
-use crate::explorer::Explorer;
 use crate::scene::Size;
 
 /// A pixel, by what names it before there is a picture.
@@ -37,46 +36,4 @@ pub(crate) fn scaled((x, y): (u32, u32), old: Size, new: Size) -> (u32, u32) {
         along(x, old.width, new.width),
         along(y, old.height, new.height),
     )
-}
-
-impl Explorer {
-    /// Puts the cursor where it was wanted.
-    pub(crate) fn arrive(&mut self) {
-        let Some(target) = self.arrival.target.take() else {
-            return;
-        };
-        let size = self.size();
-        let pixel = match target {
-            Target::Center => Some((size.width / 2, size.height / 2)),
-            Target::Pixel(x, y) => Some((x, y)),
-            Target::PixelOf(pixel, old) => Some(scaled(pixel, old, size)),
-            Target::Point(p) => self.pixel_of(p),
-        };
-        match pixel.filter(|&(x, y)| x < size.width && y < size.height) {
-            Some((x, y)) => self.cursor = (x, y),
-            None => self.warn(match target {
-                Target::Pixel(x, y) => {
-                    format!("cursor: found {x} {y}, expected a pixel of {size}, counted from 0")
-                }
-                _ => "The place of the cursor is out of the picture.".into(),
-            }),
-        }
-    }
-
-    /// The pixel that shows the point `p`, if the picture shows it.
-    pub(crate) fn pixel_of(&self, p: Vec3) -> Option<(u32, u32)> {
-        let [x, y] = self.picture.rays.project(p.as_dvec3())?.map(f64::round);
-        (x >= 0.0 && y >= 0.0).then_some((x as u32, y as u32))
-    }
-
-    /// Goes to the step that was wanted; the panel stays as it is.
-    pub(crate) fn arrive_at_step(&mut self) {
-        let Some(name) = self.arrival.step.take() else {
-            return;
-        };
-        match self.step_named(&name) {
-            Ok(at) => self.step_at = at,
-            Err(sentence) => self.warn(sentence),
-        }
-    }
 }

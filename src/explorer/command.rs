@@ -1,18 +1,15 @@
 //! The command line that `:` opens: actions by name, and what takes an argument.
 
-use crate::lab::{CaseForm, Dial};
-use crate::method::Method;
-use crate::render::{ColorDepth, Style, View};
-use crate::scene::Builtin;
-use crate::text::nearest;
+use std::path::PathBuf;
 
 use crate::explorer::action::Action;
-use crate::explorer::draw::theme::Palette;
-use crate::explorer::edit::field::{Field, parse_number};
 use crate::explorer::files::workplace::Workplace;
 use crate::explorer::panel::Panel;
+use crate::explorer::setting::{self, SETTINGS, Setting, SettingRow, one_of};
 use crate::explorer::tour::chapter as tour;
-use crate::text::by_name;
+use crate::lab::{CaseForm, Dial};
+use crate::scene::Builtin;
+use crate::text::nearest;
 
 /// A line that was understood.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,73 +18,42 @@ pub enum Command {
     Do(Action),
     /// Quit without asking.
     QuitNow,
+    /// Save, and quit if that left nothing unsaved: an answer, as are the five below.
+    SaveAndQuit,
+    /// Open a scene without asking.
+    OpenNow(String),
+    /// Take up work that was kept.
+    Recover(PathBuf),
+    /// Delete work that was kept.
+    Discard(PathBuf),
+    /// Write the scene over what this file holds.
+    Overwrite(PathBuf),
+    /// Open the tour although there are unsaved changes.
+    TourNow,
     /// Open a file or a built-in scene.
     Open(String),
     /// Save under this name.
     SaveAs(String),
-    /// Use this method.
-    Method(Method),
-    /// Draw in this style.
-    Style(Style),
-    /// Show this view.
-    View(View),
-    /// Use the colours of this theme.
-    Palette(Palette),
-    /// Use so many colours.
-    Color(ColorDepth),
-    /// Put the cursor on a pixel.
-    Cursor(u32, u32),
-    /// Select the sphere of that number, from 1.
-    Sphere(usize),
-    /// Give a number a value.
-    Set(Field, f32),
-    /// Make steps of sphere and camera this long.
-    Stride(f32),
-    /// Show this panel.
-    Panel(Panel),
+    /// Give a setting a value.
+    Set(Setting),
     /// Copy the pixel in this form.
     Copy(CaseForm),
     /// Append the pixel to this file of rows.
     Append(String),
     /// Choose a dial, and turn it to 2^k.
     Dial(&'static Dial, Option<u32>),
-    /// Go to the step of the derivation of that name or number.
-    Step(String),
-    /// Put the moving point of slice and curve at this t.
-    At(f64),
     /// Open the tour at this chapter.
     Tour(String),
-    /// Compare with this method.
-    Compare(Method),
-    /// Take cells to be this many times as high as wide.
-    Aspect(f64),
 }
 
-/// A command with an argument: its name, what follows, what it does.
-pub const WITH_ARGUMENT: &[(&str, &str, &str)] = &[
+/// A command with an argument that is no setting: its name, what follows, what it does.
+const WITH_ARGUMENT: &[(&str, &str, &str)] = &[
     (
         "open",
         "FILE or NAME",
         "open a scene file or a built-in scene",
     ),
     ("save-as", "FILE", "save the scene under another name"),
-    ("method", "NAME", "evaluate the quadratic by this method"),
-    ("style", "NAME", "draw the picture in this style"),
-    ("view", "NAME", "show this view"),
-    ("theme", "NAME", "draw in the colours of this theme"),
-    (
-        "color",
-        "DEPTH",
-        "use so many colours: never, 16, 256, true",
-    ),
-    ("cursor", "X Y", "put the cursor on a pixel"),
-    ("sphere", "N", "select the sphere of that number"),
-    (
-        "set",
-        "KEY VALUE",
-        "give a number of the sphere or the camera a value",
-    ),
-    ("panel", "NAME", "show this panel"),
     (
         "dial",
         "NAME K",
@@ -103,22 +69,18 @@ pub const WITH_ARGUMENT: &[(&str, &str, &str)] = &[
         "FILE",
         "append this pixel to a CSV file for `rayscope grade`",
     ),
-    ("step", "NAME", "go to the step of that name or number"),
-    (
-        "t",
-        "VALUE",
-        "put the moving point of slice and curve at this t",
-    ),
-    ("compare", "NAME", "compare with this method"),
     ("tour", "CHAPTER", "open the tour at a chapter"),
-    ("stride", "LENGTH", "move and grow spheres by this much"),
-    (
-        "aspect",
-        "RATIO",
-        "take cells to be this many times as high as wide",
-    ),
     ("quit!", "", "quit without asking"),
 ];
+
+/// All commands with an argument: name, what follows, what it does.
+pub fn with_argument() -> impl Iterator<Item = (&'static str, &'static str, &'static str)> {
+    let settings = SETTINGS.iter().filter_map(|row| {
+        let (argument, help) = row.command?;
+        Some((row.name, argument, help))
+    });
+    WITH_ARGUMENT.iter().copied().chain(settings)
+}
 
 impl Command {
     /// Understands a line, or says in a sentence why not.
@@ -133,7 +95,7 @@ impl Command {
         // A panel opens by its bare name, too.
         let panel = Panel::ALL.into_iter().find(|panel| panel.name() == name);
         if let (true, Some(panel)) = (rest.is_empty(), panel) {
-            return Ok(Self::Panel(panel));
+            return Ok(Self::Set(Setting::Panel(panel)));
         }
         match name {
             "q" | "quit" if rest.is_empty() => Ok(Self::Do(Action::Quit)),
@@ -141,35 +103,18 @@ impl Command {
             "w" if rest.is_empty() => Ok(Self::Do(Action::Save)),
             "open" => argument(rest, "open", "a file or a built-in scene").map(Self::Open),
             "save-as" | "save" | "w" => argument(rest, name, "a file name").map(Self::SaveAs),
-            "method" => choice(rest, "method", Method::ALL, Method::name).map(Self::Method),
-            "style" => choice(rest, "style", Style::ALL, Style::name).map(Self::Style),
-            "view" => choice(rest, "view", View::ALL, View::name).map(Self::View),
-            "theme" => choice(rest, "theme", Palette::ALL, Palette::name).map(Self::Palette),
-            "color" => choice(rest, "color", ColorDepth::ALL, ColorDepth::name).map(Self::Color),
-            "cursor" => cursor(rest),
-            "sphere" => match rest.parse() {
-                Ok(n) if n > 0 => Ok(Self::Sphere(n)),
-                _ => Err(format!("sphere: found “{rest}”, expected a number from 1")),
-            },
-            "set" => set(rest),
-            "stride" => positive(rest, "stride").map(Self::Stride),
-            "panel" => choice(rest, "panel", Panel::ALL, Panel::name).map(Self::Panel),
-            "copy" => choice(rest, "copy", CaseForm::ALL, CaseForm::name).map(Self::Copy),
+            "copy" => choice(rest, "copy", &CaseForm::ALL, CaseForm::name).map(Self::Copy),
             "append" => argument(rest, "append", "a file name").map(Self::Append),
             "dial" => dial(rest),
             "tour" => argument(rest, "tour", "a chapter's name or number").map(Self::Tour),
-            "step" => argument(rest, "step", "a step's name or number").map(Self::Step),
-            "t" => match parse_number("t", rest) {
-                Ok(t) => Ok(Self::At(t.into())),
-                Err(e) => Err(e.to_string()),
-            },
-            "compare" => choice(rest, "compare", Method::ALL, Method::name).map(Self::Compare),
-            "aspect" => positive(rest, "aspect").map(|a| Self::Aspect(a.into())),
             "" => Err("Type a command; tab completes, esc leaves.".into()),
             _ if Action::by_name(name).is_some() => {
                 Err(format!("{name}: takes no argument, found “{rest}”"))
             }
-            _ => Err(unknown(name)),
+            _ => match SettingRow::by_name(name).filter(|row| row.command.is_some()) {
+                Some(row) => setting::parse(row, rest).map(Self::Set),
+                None => Err(unknown(name)),
+            },
         }
     }
 }
@@ -188,20 +133,13 @@ fn argument(rest: &str, name: &str, expected: &str) -> Result<String, String> {
     }
 }
 
-pub(crate) fn choice<T: Copy>(
+fn choice<T: Copy>(
     rest: &str,
     what: &str,
-    all: impl IntoIterator<Item = T>,
-    name: impl Fn(T) -> &'static str,
+    all: &[T],
+    name: fn(T) -> &'static str,
 ) -> Result<T, String> {
-    let all: Vec<T> = all.into_iter().collect();
-    by_name(all.iter().copied(), &name, rest).ok_or_else(|| {
-        let names: Vec<_> = all.into_iter().map(name).collect();
-        format!(
-            "{what}: found “{rest}”, expected one of {}",
-            names.join(", ")
-        )
-    })
+    one_of(rest, all, name).map_err(|expected| format!("{what}: found “{rest}”, {expected}"))
 }
 
 fn dial(rest: &str) -> Result<Command, String> {
@@ -215,7 +153,8 @@ fn dial(rest: &str) -> Result<Command, String> {
             "dial: scenes have no {name}; `rayscope stress --dial {name}` turns it on rays"
         ));
     }
-    let dial = choice(name, "dial", Dial::of_scenes(), |dial| dial.name)?;
+    let dials: Vec<_> = Dial::of_scenes().collect();
+    let dial = choice(name, "dial", &dials, |dial| dial.name)?;
     let Some(k) = k else {
         return Ok(Command::Dial(dial, None));
     };
@@ -230,42 +169,9 @@ fn dial(rest: &str) -> Result<Command, String> {
     }
 }
 
-fn cursor(rest: &str) -> Result<Command, String> {
-    let mut numbers = rest
-        .split([' ', ','])
-        .filter(|s| !s.is_empty())
-        .map(str::parse);
-    match (numbers.next(), numbers.next(), numbers.next()) {
-        (Some(Ok(x)), Some(Ok(y)), None) => Ok(Command::Cursor(x, y)),
-        _ => Err(format!(
-            "cursor: found “{rest}”, expected a pixel, as in “cursor 20 20”"
-        )),
-    }
-}
-
-fn set(rest: &str) -> Result<Command, String> {
-    let (key, value) = rest
-        .split_once(|c: char| c.is_whitespace() || c == '=')
-        .ok_or_else(|| format!("set: found “{rest}”, expected a key and a value"))?;
-    let field =
-        Field::by_name(key).ok_or_else(|| format!("set: “{key}” is no key; tab lists them"))?;
-    let value = parse_number(key, value.trim_start_matches(['=', ' ']));
-    value
-        .map(|v| Command::Set(field, v))
-        .map_err(|e| e.to_string())
-}
-
-fn positive(rest: &str, what: &str) -> Result<f32, String> {
-    match parse_number(what, rest) {
-        Ok(value) if value > 0.0 => Ok(value),
-        Ok(_) => Err(format!("{what} is {rest}: expected a number above zero")),
-        Err(e) => Err(e.to_string()),
-    }
-}
-
 fn names() -> Vec<&'static str> {
     let mut names: Vec<_> = Action::ALL.iter().map(|a| a.name()).collect();
-    names.extend(WITH_ARGUMENT.iter().map(|(name, ..)| *name));
+    names.extend(with_argument().map(|(name, ..)| name));
     names.sort_unstable();
     names.dedup();
     names
@@ -286,16 +192,6 @@ pub fn complete(line: &str, workplace: &Workplace) -> Vec<String> {
     };
     let head = format!("{name} ");
     let words = match name {
-        "panel" => Panel::ALL.iter().map(|p| p.name().to_owned()).collect(),
-        "method" | "compare" => Method::ALL.iter().map(|m| m.name().to_owned()).collect(),
-        "style" => Style::ALL.iter().map(|s| s.name().to_owned()).collect(),
-        "theme" => Palette::ALL.iter().map(|p| p.name().to_owned()).collect(),
-        "color" => ColorDepth::ALL
-            .iter()
-            .map(|d| d.name().to_owned())
-            .collect(),
-        "view" => View::ALL.iter().map(|v| v.name().to_owned()).collect(),
-        "set" => Field::all_names(),
         "copy" => CaseForm::ALL.iter().map(|f| f.name().to_owned()).collect(),
         "dial" => Dial::of_scenes().map(|d| d.name.to_owned()).collect(),
         "tour" => tour::builtin().iter().map(|c| c.name.clone()).collect(),
@@ -305,7 +201,7 @@ pub fn complete(line: &str, workplace: &Workplace) -> Vec<String> {
             words
         }
         "save-as" | "append" => workplace.names_starting_with(typed),
-        _ => Vec::new(),
+        _ => SettingRow::by_name(name).map_or_else(Vec::new, |row| (row.choices)()),
     };
     starting(words, &head, typed)
 }

@@ -1,19 +1,12 @@
 //! How the explorer is drawn, why so, and what it asks of the loop that runs it.
 
 use crate::explorer::draw::theme::Palette;
-use crate::method::Method;
-use crate::render::{ColorDepth, Style, View};
+use crate::render::ColorDepth;
 use crate::text::Glyphs;
 
-/// How the explorer starts.
+/// What the terminal is like, and how the explorer is drawn on it.
 #[derive(Debug, Clone, Copy)]
 pub struct Options {
-    /// The method that is asked first.
-    pub method: Method,
-    /// The style of the picture.
-    pub style: Style,
-    /// What the picture shows.
-    pub view: View,
     /// Height of a cell over its width.
     pub aspect: f64,
     /// The colours that the terminal has.
@@ -60,9 +53,6 @@ impl Options {
 impl Default for Options {
     fn default() -> Self {
         Self {
-            method: Method::default(),
-            style: Style::Half,
-            view: View::Shade,
             aspect: 2.0,
             depth: ColorDepth::Ansi256,
             palette: Palette::default(),

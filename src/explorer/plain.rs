@@ -7,13 +7,15 @@ use ratatui::layout::Rect;
 
 use crate::explain::{self, Digits, Line, Reading, StepLook, Subject};
 use crate::explorer::action::{Action, Group};
-use crate::explorer::command::{self, Command, WITH_ARGUMENT};
-use crate::explorer::edit::field::Field;
+use crate::explorer::command::{self, Command, with_argument};
+use crate::explorer::dialog::{Confirmation, Purpose};
 use crate::explorer::key::Key;
-use crate::explorer::mode::{Mode, Purpose, Question};
-use crate::explorer::panel::Panel;
-use crate::explorer::{Explorer, Request};
-use crate::geometry::Decimal;
+use crate::explorer::mode::form::numbers;
+use crate::explorer::mode::{ExportCase, Mode, export_case};
+use crate::explorer::options::Request;
+use crate::explorer::panel::{Panel, steps};
+use crate::explorer::walk;
+use crate::explorer::whole::{Explorer, USUAL_SCREEN};
 use crate::method::{Class, Precision};
 use crate::text::printable;
 
@@ -28,11 +30,8 @@ pub struct Reply {
     pub refused: bool,
 }
 
-/// The screen that the picture is made for, in columns and rows.
-pub(crate) const SCREEN: (u16, u16) = (80, 24);
-/// Columns and rows of a panel as text: panels are longer than a screen, figures are not.
-const ROOM: (u16, u16) = (76, 200);
-const FIGURE: (u16, u16) = (76, 20);
+/// Columns of a step as text.
+const WIDTH: usize = 76;
 /// How often a line may have an action done.
 const MOST_TIMES: usize = 1000;
 
@@ -47,12 +46,12 @@ impl Explorer {
     /// What is said first: where we are, and how to go on.
     pub fn greeting(&mut self) -> Reply {
         self.look();
-        let mut text = match self.tour_text() {
+        let mut text = match self.tour.text() {
             Some(page) => page.join("\n") + "\n",
             None => self.scene().name.clone() + "\n",
         };
         text += &(self.facts().sentence(None) + "\n");
-        let message = self.message.take();
+        let message = self.state.message.take();
         let refused = message.as_ref().is_some_and(|m| m.warning);
         if let Some(message) = message {
             text += &(message.text + "\n");
@@ -61,22 +60,26 @@ impl Explorer {
         self.said(&text, refused)
     }
 
+    fn question(&self) -> Option<&Confirmation> {
+        self.modes.last().and_then(Mode::question)
+    }
+
     /// Whether the next line may be the answer to a question.
-    pub const fn is_asking(&self) -> bool {
-        matches!(self.mode, Mode::Ask(_))
+    pub fn is_asking(&self) -> bool {
+        self.question().is_some()
     }
 
     /// Whether the question is what to do about unsaved work.
-    pub const fn is_asking_to_quit(&self) -> bool {
-        matches!(self.mode, Mode::Ask(Question::Quit))
+    pub fn is_asking_to_quit(&self) -> bool {
+        self.question() == Some(&Confirmation::Quit)
     }
 
     /// Puts a question off, since nobody is there to answer it, and with it what is said to a person
     /// who has just come.
     pub fn put_off(&mut self) {
-        self.message = None;
+        self.state.message = None;
         if self.is_asking() {
-            self.mode = Mode::Normal;
+            self.modes.clear();
         }
     }
 
@@ -86,12 +89,12 @@ impl Explorer {
         if line.is_empty() || line.starts_with('#') {
             return Reply::default();
         }
-        if self.picture.key.is_none() {
+        if self.state.picture.key.is_none() {
             self.look();
         }
-        self.message = None;
+        self.state.message = None;
         let before = self.facts();
-        let told = match self.hear(line) {
+        let told = match self.do_line(line) {
             Ok(told) => told,
             Err(sentence) => return self.said(&(sentence + "\n"), true),
         };
@@ -99,7 +102,7 @@ impl Explorer {
         if told.is_none() {
             self.look();
         }
-        let refused = self.message.as_ref().is_some_and(|m| m.warning);
+        let refused = self.state.message.as_ref().is_some_and(|m| m.warning);
         let news = self.news(&before, told.is_some());
         self.said(&(told.unwrap_or_default() + &news), refused)
     }
@@ -107,7 +110,7 @@ impl Explorer {
     /// What a command has left to say: its message, what changed, a question.
     fn news(&mut self, before: &Facts, is_answered: bool) -> String {
         let mut text = String::new();
-        if let Some(message) = self.message.take() {
+        if let Some(message) = self.state.message.take() {
             text += &(message.text + "\n");
         }
         let after = self.facts();
@@ -117,15 +120,16 @@ impl Explorer {
         }
         if after.page != before.page {
             text += &self
-                .tour_text()
+                .tour
+                .text()
                 .map_or(String::new(), |t| t.join("\n") + "\n");
         }
         if after.panel != before.panel {
-            text += &self.panel_in_text(self.panel);
+            text += &self.panel_in_text(self.state.at.panel);
         } else if after.step != before.step {
             text += &self.step_in_text();
         }
-        if text.is_empty() && !is_answered && self.mode == Mode::Normal && self.ended.is_none() {
+        if text.is_empty() && !is_answered && self.modes.is_empty() && self.state.ended.is_none() {
             text += "Nothing changed.\n";
         }
         text
@@ -133,11 +137,9 @@ impl Explorer {
 
     /// What is said, in the characters there are, and none that moves a cursor.
     fn said(&self, text: &str, refused: bool) -> Reply {
-        let written = |text: &str| printable(&self.options.glyphs.spell(text)).into_owned();
-        let question = match &self.mode {
-            Mode::Ask(question) => Some(written(&(question.text() + "\n"))),
-            _ => None,
-        };
+        let written = |text: &str| printable(&self.state.options.glyphs.spell(text)).into_owned();
+        let question = self.question();
+        let question = question.map(|question| written(&(question.text() + "\n")));
         Reply {
             text: written(text),
             question,
@@ -146,12 +148,13 @@ impl Explorer {
     }
 
     fn look(&mut self) {
-        self.prepare(SCREEN.0, SCREEN.1);
+        let (cols, rows) = USUAL_SCREEN;
+        self.prepare(cols, rows);
     }
 
     /// Has a line done. What comes back is an answer in itself, or why the line is not done.
-    fn hear(&mut self, line: &str) -> Result<Option<String>, String> {
-        self.quits_once_saved &= self.mode != Mode::Normal;
+    fn do_line(&mut self, line: &str) -> Result<Option<String>, String> {
+        self.state.quits_once_saved &= !self.modes.is_empty();
         if self.is_answer(line) {
             return Ok(None);
         }
@@ -175,9 +178,9 @@ impl Explorer {
         if command == Command::Do(Action::TourForward) {
             self.turn_page();
         } else {
-            self.command(command);
+            self.run(command);
         }
-        self.settle()
+        self.answer_without_screen()
     }
 
     /// Takes a line as the answer to the question that is open, if it can be one.
@@ -190,7 +193,7 @@ impl Explorer {
             self.press(key);
             return true;
         }
-        self.answer_prediction(key)
+        walk::answer_prediction(&mut self.state, key)
     }
 
     /// Does an action several times.
@@ -203,8 +206,8 @@ impl Explorer {
         };
         for _ in 0..times {
             self.act(action);
-            self.settle()?;
-            if self.ended.is_some() {
+            self.answer_without_screen()?;
+            if self.state.ended.is_some() {
                 break;
             }
             self.look();
@@ -214,47 +217,42 @@ impl Explorer {
 
     /// The next page of the tour, all of the one before having been read.
     fn turn_page(&mut self) {
-        let place = self.tour_place();
+        let place = self.tour.place();
         // On a screen a long page is scrolled first, by a few lines a key.
         for _ in 0..MOST_TIMES {
             self.act(Action::TourForward);
-            if self.tour_place() != place || self.message.is_some() || self.is_asking() {
+            if self.tour.place() != place || self.state.message.is_some() || self.is_asking() {
                 break;
             }
         }
     }
 
     /// Brings what needs a screen to an end without one.
-    fn settle(&mut self) -> Result<Option<String>, String> {
-        self.board = false;
-        match self.request.take() {
+    fn answer_without_screen(&mut self) -> Result<Option<String>, String> {
+        self.state.board = false;
+        match self.state.request.take() {
             Some(Request::Suspend) => {
                 return Err("suspend: there is no screen to leave; ctrl-z stops rayscope".into());
             }
             Some(Request::Copy(_) | Request::Redraw) | None => {}
         }
-        match &self.mode {
-            Mode::Normal | Mode::Ask(_) => Ok(None),
-            Mode::Help { .. } => {
-                self.mode = Mode::Normal;
-                help("").map(Some)
-            }
-            &Mode::Case(form) => {
-                self.mode = Mode::Normal;
-                let lines = self.case_lines(form);
+        if self.is_asking() {
+            return Ok(None);
+        }
+        match self.modes.pop() {
+            None | Some(Mode::Asking(_)) => Ok(None),
+            Some(Mode::Help(_)) => help("").map(Some),
+            Some(Mode::Case(ExportCase { form })) => {
+                let lines = export_case::lines(&self.state, form);
                 Ok(Some(lines.join("\n") + "\n"))
             }
-            Mode::Form(_) => {
-                self.mode = Mode::Normal;
-                Ok(Some(self.numbers()))
-            }
-            Mode::Prompt(prompt) => {
+            Some(Mode::Form(_)) => Ok(Some(numbers(&self.state))),
+            Some(Mode::Prompt(prompt)) => {
                 let sentence = match prompt.purpose {
                     Purpose::Command => "Every line is a command.",
                     Purpose::Open => "open: expected a file or a built-in scene after it",
                     Purpose::SaveAs => "save-as: expected a file name after it",
                 };
-                self.mode = Mode::Normal;
                 Err(sentence.into())
             }
         }
@@ -263,10 +261,10 @@ impl Explorer {
     /// The text form of a panel, or of something else that a screen shows.
     fn show(&self, what: &str) -> Result<String, String> {
         match what {
-            "" => Ok(self.panel_in_text(self.panel)),
+            "" => Ok(self.panel_in_text(self.state.at.panel)),
             "view" => Ok(self.picture_in_text()),
-            "numbers" => Ok(self.numbers()),
-            "tour" => match self.tour_text() {
+            "numbers" => Ok(numbers(&self.state)),
+            "tour" => match self.tour.text() {
                 Some(page) => Ok(page.join("\n") + "\n"),
                 None => Err("show tour: no page is open; tour opens it".into()),
             },
@@ -287,45 +285,45 @@ impl Explorer {
     }
 
     fn panel_in_text(&self, panel: Panel) -> String {
-        let (width, height) = match panel {
-            Panel::Slice | Panel::Curve | Panel::Error | Panel::Dial => FIGURE,
-            _ => ROOM,
-        };
+        let (width, height) = self.panels.get(panel).size_as_text();
         let room = Rect::new(0, 0, width, height);
-        let (title, lines) = self.panel_text(panel, room).unwrap_or_default();
+        let (title, lines) = self
+            .panels
+            .text(&self.state, panel, room)
+            .unwrap_or_default();
         format!("{title}\n{}", without_gaps(&lines))
     }
 
     /// The step of the derivation that is shown.
     fn step_in_text(&self) -> String {
-        let Some(step) = self.current_step() else {
+        let Some(step) = self.state.current_step() else {
             return "The scene has no spheres.\n".into();
         };
         let look = StepLook {
-            hidden: self.is_hidden(),
+            hidden: self.state.is_hidden(),
             changed: false,
         };
-        let mut lines = explain::step_lines(step, ROOM.0.into(), look);
-        if let Some(question) = self.pending_question() {
+        let mut lines = explain::step_lines(step, WIDTH, look);
+        if let Some(question) = walk::pending_question(&self.state) {
             lines.extend(explain::question_lines(
                 question,
-                ROOM.0.into(),
-                self.options.glyphs,
+                WIDTH,
+                self.state.options.glyphs,
             ));
         }
-        format!("{}\n{}", self.step_title(), without_gaps(&lines))
+        format!("{}\n{}", steps::title(&self.state), without_gaps(&lines))
     }
 
     /// The picture in characters, marks beside it for the cursor.
     fn picture_in_text(&self) -> String {
-        if self.is_picture_veiled() {
+        if walk::is_picture_veiled(&self.state) {
             return "The picture is hidden while you predict.\n".into();
         }
-        let (size, (x, y)) = (self.size(), self.cursor);
-        let (col, row) = self.options.style.cell_of_pixel(x, y);
+        let (size, (x, y)) = (self.state.size(), self.state.at.cursor);
+        let (col, row) = self.state.at.style.cell_of_pixel(x, y);
         let mut text = format!("view of {size} pixels, the cursor on ({x}, {y})\n");
         text += &(" ".repeat(col as usize + 2) + "▾\n");
-        for (n, cells) in (0..).zip(self.picture.image.lines()) {
+        for (n, cells) in (0..).zip(self.state.picture.image.lines()) {
             let line: String = cells.iter().map(|c| c.glyph).collect();
             let mark = if n == row { "▸ " } else { "  " };
             text += (mark.to_owned() + &line).trim_end();
@@ -334,56 +332,46 @@ impl Explorer {
         text
     }
 
-    /// The numbers that can be set.
-    fn numbers(&self) -> String {
-        let fields = Field::of(self.scene(), self.selected).into_iter();
-        let values = fields.filter_map(|f| Some((f.name(), f.get(self.scene(), self.selected)?)));
-        let lines: Vec<_> = values
-            .map(|(name, value)| format!("{name} {}\n", Decimal(value)))
-            .collect();
-        lines.concat()
-    }
-
     /// What a person would see that looks at the screen.
     fn facts(&self) -> Facts {
         let mut facts = Facts {
-            panel: self.panel,
+            panel: self.state.at.panel,
             step: self
+                .state
                 .current_step()
-                .map(|s| (self.step_at, s.name.clone(), self.is_hidden())),
-            page: self.tour_place(),
-            is_veiled: self.is_predicting(),
+                .map(|s| (self.state.at.step, s.name.clone(), self.state.is_hidden())),
+            page: self.tour.place(),
+            is_veiled: self.state.is_predicting(),
             pairs: Vec::new(),
         };
-        let options = self.options;
         let bodies = self.scene().bodies.len();
         facts.add("scene", &self.scene().name);
         facts.add("spheres", &bodies.to_string());
-        facts.add("method", options.method.name());
-        facts.add("view", options.view.name());
-        facts.add("style", options.style.name());
-        facts.add("compared with", self.other_method().name());
-        facts.add("step length", &self.step.to_string());
+        facts.add("method", self.state.at.method.name());
+        facts.add("view", self.state.at.view.name());
+        facts.add("style", self.state.at.style.name());
+        facts.add("compared with", self.state.other_method().name());
+        facts.add("step length", &self.state.work.stride.to_string());
         facts.add("unsaved", if self.is_changed() { "yes" } else { "no" });
-        if let Some(at) = self.selected {
+        if let Some(at) = self.state.at.sphere {
             facts.add("selected sphere", &(at + 1).to_string());
         }
-        for line in self.numbers().lines() {
+        for line in numbers(&self.state).lines() {
             if let Some((name, value)) = line.split_once(' ') {
                 facts.add(name, value);
             }
         }
-        if let Some(t) = self.scrubbed {
+        if let Some(t) = self.state.at.t {
             facts.add("moving point at t", &t.to_string());
         }
-        if let Some(reading) = &self.picture.reading {
-            facts.read(reading, self.digits());
+        if let Some(reading) = &self.state.picture.reading {
+            facts.read(reading, self.state.digits());
         }
         facts
     }
 }
 
-/// Names and values, as far as the person may want to hear of them.
+/// Names and values, as far as the person may want to know them.
 #[derive(Debug, Clone, PartialEq)]
 struct Facts {
     panel: Panel,
@@ -473,12 +461,12 @@ impl Facts {
 /// The commands, or what one of them does.
 fn help(name: &str) -> Result<String, String> {
     let of_action = |a: &Action| format!("  {}: {}\n", a.name(), a.help());
-    let of_command = |(name, argument, help): &(&str, &str, &str)| {
+    let of_command = |(name, argument, help): (&str, &str, &str)| {
         format!("  {}: {help}\n", format!("{name} {argument}").trim_end())
     };
     if !name.is_empty() {
         let action = Action::by_name(name).map(|a| of_action(&a));
-        let commands = WITH_ARGUMENT.iter().filter(|(n, ..)| *n == name);
+        let commands = with_argument().filter(|(n, ..)| *n == name);
         let lines: String = action.into_iter().chain(commands.map(of_command)).collect();
         return if lines.is_empty() {
             Err(command::unknown(name).replace("; tab lists them", "; help lists them"))
@@ -495,7 +483,7 @@ fn help(name: &str) -> Result<String, String> {
         text.extend(actions.map(of_action));
     }
     text += "Commands\n";
-    text.extend(WITH_ARGUMENT.iter().map(of_command));
+    text.extend(with_argument().map(of_command));
     text += "  show: the panel in text\n";
     text.extend(Panel::ALL.map(|panel| format!("  show {}: that panel\n", panel.name())));
     text.extend(

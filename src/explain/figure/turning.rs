@@ -15,7 +15,7 @@ use crate::text::Glyphs;
 
 /// What one setting of a dial does to a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Setting {
+pub struct DialSetting {
     /// The dial is turned by 2^k.
     pub k: u32,
     /// The share of pixels that are wrong, 0 to 1.
@@ -32,7 +32,7 @@ const SIDES: (usize, usize) = (4, 3);
 /// The share of wrong pixels and the bits lost over the settings that were tried, in `cols` × `rows`
 /// characters; nothing where that is too little.
 pub fn turning(
-    settings: &[Setting],
+    settings: &[DialSetting],
     now: u32,
     most: u32,
     cols: usize,
@@ -153,7 +153,7 @@ mod tests {
     #[test]
     fn the_line_rises_where_the_picture_breaks() {
         let settings = [(0, 0.0), (10, 0.0), (11, 1.0), (20, 1.0)];
-        let settings = settings.map(|(k, wrong)| Setting {
+        let settings = settings.map(|(k, wrong)| DialSetting {
             k,
             wrong,
             bits: None,
@@ -187,7 +187,7 @@ mod tests {
         ) {
             let settings: Vec<_> = tried
                 .into_iter()
-                .map(|(k, (wrong, bits))| Setting { k, wrong, bits })
+                .map(|(k, (wrong, bits))| DialSetting { k, wrong, bits })
                 .collect();
             let glyphs = if ascii { Glyphs::Ascii } else { Glyphs::Unicode };
             let lines = turning(&settings, now, most, cols, rows, glyphs);

@@ -11,7 +11,6 @@
 
 use ratatui::layout::Rect;
 
-use crate::explorer::Explorer;
 use crate::render::Image;
 
 /// The smallest screen that is drawn on, in columns and rows.
@@ -136,6 +135,16 @@ pub fn inner(area: Rect) -> Rect {
     )
 }
 
+/// What is inside a panel's border, a blank away from it.
+pub fn text_room(area: Rect) -> Rect {
+    let room = inner(area);
+    Rect {
+        x: room.x + 1,
+        width: room.width.saturating_sub(2),
+        ..room
+    }
+}
+
 /// The cells inside the border of `view` that show `image` from its column and row `offset` on: a
 /// picture that is smaller than its room stands in the middle.
 pub fn centered(view: Rect, image: &Image, (left, top): (u32, u32)) -> Rect {
@@ -148,15 +157,6 @@ pub fn centered(view: Rect, image: &Image, (left, top): (u32, u32)) -> Rect {
         width,
         height,
     )
-}
-
-impl Explorer {
-    /// The layout of the screen as it is now.
-    pub(crate) fn layout(&self, area: Rect) -> Option<Layout> {
-        let style = self.options.style;
-        let picture = self.scene().pixels.map(|size| style.cells_of(size));
-        Layout::with_box(area, picture, self.tour_rows(area))
-    }
 }
 
 #[cfg(test)]

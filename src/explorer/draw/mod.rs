@@ -2,7 +2,9 @@
 
 pub(crate) mod large;
 pub(crate) mod layout;
+pub(crate) mod panels;
 pub(crate) mod pen;
 pub(crate) mod picture;
 pub(crate) mod screen;
 pub(crate) mod theme;
+pub(crate) mod view;

@@ -1,13 +1,31 @@
 //! Writes text, borders and lines with roles into cells.
+//!
+//! Borders are ratatui's blocks. Its paragraphs and tables are not used for text, since they cut
+//! what is too long without a mark and know nothing of spelling in ASCII, where a longer spelling
+//! takes its room from the gap behind it.
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::{Position, Rect};
 use ratatui::style::Style as CellStyle;
+use ratatui::symbols::border;
+use ratatui::widgets::{Block, Clear, Widget};
 use unicode_width::UnicodeWidthStr;
 
 use crate::explain::{Line, Role, Span};
 use crate::explorer::draw::theme::Theme;
-use crate::text::Glyphs;
+use crate::text::{self, Glyphs};
+
+/// A border in ASCII.
+const ASCII_BORDER: border::Set<'static> = border::Set {
+    top_left: "+",
+    top_right: "+",
+    bottom_left: "+",
+    bottom_right: "+",
+    vertical_left: "|",
+    vertical_right: "|",
+    horizontal_top: "-",
+    horizontal_bottom: "-",
+};
 
 /// Writes text into cells: cut at the edge, spelt in the characters that there are.
 pub(crate) struct Pen<'a> {
@@ -36,29 +54,15 @@ impl Pen<'_> {
         if area.width < 2 || area.height < 2 {
             return;
         }
-        let [h, v, corners @ ..] = match self.glyphs {
-            Glyphs::Unicode => ["─", "│", "┌", "┐", "└", "┘"],
-            Glyphs::Ascii => ["-", "|", "+", "+", "+", "+"],
+        let lines = match self.glyphs {
+            Glyphs::Unicode => border::PLAIN,
+            Glyphs::Ascii => ASCII_BORDER,
         };
-        let style = Theme::border();
-        let (right, bottom) = (area.right() - 1, area.bottom() - 1);
-        for x in area.left() + 1..right {
-            self.buffer.set_string(x, area.top(), h, style);
-            self.buffer.set_string(x, bottom, h, style);
-        }
-        for y in area.top() + 1..bottom {
-            self.buffer.set_string(area.left(), y, v, style);
-            self.buffer.set_string(right, y, v, style);
-        }
-        let places = [
-            (area.left(), area.top()),
-            (right, area.top()),
-            (area.left(), bottom),
-            (right, bottom),
-        ];
-        for ((x, y), corner) in places.into_iter().zip(corners) {
-            self.buffer.set_string(x, y, corner, style);
-        }
+        Block::bordered()
+            .border_set(lines)
+            .border_style(Theme::border())
+            .render(area, self.buffer);
+        let bottom = area.bottom() - 1;
         for (y, text) in [(area.top(), title), (bottom, foot)] {
             self.border_text(area, y, text, None);
         }
@@ -91,6 +95,27 @@ impl Pen<'_> {
             let x = area.right() - width - 2;
             self.text(x, area.y, width, &text, CellStyle::new());
         }
+    }
+
+    /// A message over the footer; one that is too long for a line covers the lines above.
+    pub(crate) fn message(&mut self, footer: Rect, text: &str, style: CellStyle) {
+        let room = footer.width.saturating_sub(2);
+        let lines = text::wrap(&self.glyphs.spell(text), room.into());
+        let count = (lines.len() as u16).min(footer.y);
+        let top = footer.bottom() - count;
+        Clear.render(Rect::new(footer.x, top, footer.width, count), self.buffer);
+        for (y, line) in (top..footer.bottom()).zip(&lines) {
+            self.text(footer.x + 1, y, room, line, style);
+        }
+    }
+
+    /// Words, wrapped to the width of `area`; returns the row after them.
+    pub(crate) fn words(&mut self, area: Rect, text: &str, style: CellStyle) -> u16 {
+        let lines = text::wrap(text, area.width.into());
+        for (y, line) in (area.top()..area.bottom()).zip(&lines) {
+            self.text(area.x, y, area.width, line, style);
+        }
+        area.bottom().min(area.y + lines.len() as u16)
     }
 
     /// Lines with roles, from the top of `area`.

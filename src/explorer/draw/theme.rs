@@ -168,9 +168,12 @@ impl Theme {
         Style::reset().add_modifier(Modifier::DIM)
     }
 
-    /// Headings and the names of keys.
+    /// Headings and the names of keys. Over a border they are not faint as well: terminals differ in
+    /// what they make of both at once.
     pub const fn strong() -> Style {
-        Style::new().add_modifier(Modifier::BOLD)
+        Style::new()
+            .add_modifier(Modifier::BOLD)
+            .remove_modifier(Modifier::DIM)
     }
 
     /// What may be skipped.

@@ -1,5 +1,7 @@
 //! The scene being edited, its history, and whether it differs from what was saved.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use crate::lab::Turn;
 use crate::scene::{Body, Camera, Scene};
 
@@ -25,17 +27,17 @@ pub enum Change {
 #[derive(Debug, Clone)]
 pub struct Document {
     scene: Scene,
-    state: State,
-    past: Vec<Entry>,
-    future: Vec<Entry>,
+    state: DialState,
+    past: Vec<HistoryEntry>,
+    future: Vec<HistoryEntry>,
     /// How long the past was when the scene was saved; none when that state can't be reached.
     saved_at: Option<usize>,
     version: u64,
 }
 
 /// What belongs to a scene beside the scene.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-struct State {
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct DialState {
     /// The dial that makes it what it is.
     turn: Option<Turn>,
     /// A number that is another one for another scene, the dial apart.
@@ -44,21 +46,32 @@ struct State {
 
 /// A change that leads to another scene, and what belongs to that.
 #[derive(Debug, Clone)]
-struct Entry {
+struct HistoryEntry {
     change: Change,
-    state: State,
+    state: DialState,
+}
+
+/// A number that no document has had before, so that one also tells documents apart.
+fn next_version() -> u64 {
+    static LAST: AtomicU64 = AtomicU64::new(0);
+    LAST.fetch_add(1, Ordering::Relaxed)
 }
 
 impl Document {
     /// A document that has just been read.
     pub fn new(scene: Scene) -> Self {
+        let version = next_version();
+        let state = DialState {
+            turn: None,
+            ground: version,
+        };
         Self {
             scene,
-            state: State::default(),
+            state,
             past: Vec::new(),
             future: Vec::new(),
             saved_at: Some(0),
-            version: 0,
+            version,
         }
     }
 
@@ -118,12 +131,12 @@ impl Document {
         if self.saved_at.is_some_and(|at| at > self.past.len()) {
             self.saved_at = None;
         }
-        self.past.push(Entry {
+        self.past.push(HistoryEntry {
             change: inverse,
             state: before,
         });
         self.future.clear();
-        self.state = State {
+        self.state = DialState {
             turn: None,
             ground: self.version,
         };
@@ -137,7 +150,7 @@ impl Document {
         if !self.apply(Change::Scene(Box::new(scene))) {
             return false;
         }
-        self.state = State {
+        self.state = DialState {
             turn: Some(turn),
             ground,
         };
@@ -170,10 +183,10 @@ impl Document {
     }
 
     /// Goes where an entry leads; the entry that leads back.
-    fn go(&mut self, Entry { change, state }: Entry) -> Option<Entry> {
+    fn go(&mut self, HistoryEntry { change, state }: HistoryEntry) -> Option<HistoryEntry> {
         let before = std::mem::replace(&mut self.state, state);
         let change = self.perform(change)?;
-        Some(Entry {
+        Some(HistoryEntry {
             change,
             state: before,
         })
@@ -214,7 +227,7 @@ impl Document {
                 Change::Scene(Box::new(std::mem::replace(&mut self.scene, *scene)))
             }
         };
-        self.version += 1;
+        self.version = next_version();
         Some(inverse)
     }
 }

@@ -2,134 +2,128 @@
 
 use std::path::Path;
 
-use crate::explorer::Explorer;
-use crate::explorer::files::disk::{self, Over, Stamp, Unsaved};
-use crate::explorer::mode::{Mode, Purpose, Question};
+use crate::explorer::action::Action;
+use crate::explorer::dialog::{Confirmation, Dialog, Purpose};
+use crate::explorer::files::disk::{self, Over, Unsaved};
+use crate::explorer::files::keep;
+use crate::explorer::files::place::FilePlace;
+use crate::explorer::state::{State, Work};
 use crate::scene::{Builtin, Scene, Source};
 
-/// Where the scene came from and goes to.
-#[derive(Debug, Clone)]
-pub(crate) enum FilePlace {
-    /// It has no file yet.
-    None,
-    Builtin(Builtin),
-    File(Stamp),
+/// Does an action on files; false if it is another's.
+pub(crate) fn act(action: Action, state: &mut State) -> bool {
+    match action {
+        Action::Open => state.open(Dialog::Prompt(Purpose::Open, String::new())),
+        Action::Save => save(state),
+        Action::SaveAs => {
+            let suggestion = suggested_file(state);
+            state.open(Dialog::Prompt(Purpose::SaveAs, suggestion));
+        }
+        _ => return false,
+    }
+    true
 }
 
-impl FilePlace {
-    pub(crate) fn of(source: &Source) -> Self {
-        match source {
-            Source::File(path) => Stamp::of(path).map_or(Self::None, Self::File),
-            Source::Builtin(builtin) => Self::Builtin(*builtin),
+fn suggested_file(state: &State) -> String {
+    match &state.work.place {
+        FilePlace::File(stamp) => stamp.path().display().to_string(),
+        FilePlace::None | FilePlace::Builtin(_) => {
+            let name: String = state
+                .scene()
+                .name
+                .chars()
+                .map(|c| if c.is_alphanumeric() { c } else { '-' })
+                .collect();
+            format!("{name}.toml")
         }
     }
 }
 
-impl Explorer {
-    pub(crate) fn suggested_file(&self) -> String {
-        match &self.place {
-            FilePlace::File(stamp) => stamp.path().display().to_string(),
-            FilePlace::None | FilePlace::Builtin(_) => {
-                let name: String = self
-                    .scene()
-                    .name
-                    .chars()
-                    .map(|c| if c.is_alphanumeric() { c } else { '-' })
-                    .collect();
-                format!("{name}.toml")
-            }
+/// The scene of that name, or why it can't be had.
+pub(crate) fn read(state: &State, name: &str) -> Result<(Scene, Source), String> {
+    if let Some(builtin) = Builtin::by_name(name) {
+        return Ok((builtin.scene(), Source::Builtin(builtin)));
+    }
+    let path = state.workplace.reach(name)?;
+    Scene::open(path).map_err(|e| e.to_string())
+}
+
+/// Begins with another scene, asked and drawn as the one before.
+pub(crate) fn replace(state: &mut State, scene: Scene, source: &Source) {
+    let work = Work::of(scene, FilePlace::of(source));
+    let before = std::mem::replace(state, State::new(work, state.options));
+    state.screen = before.screen;
+    state.layout = before.layout;
+    state.at.method = before.at.method;
+    state.at.style = before.at.style;
+    state.at.view = before.at.view;
+    state.workplace = before.workplace;
+    if let Some(rescue) = before.rescue {
+        keep::keep_in(state, &rescue.folder, source);
+    }
+    let about = state.scene().about.clone().unwrap_or_default();
+    state.say(format!("{}. {about}", state.scene().name));
+}
+
+pub(crate) fn save(state: &mut State) {
+    if state.work.document.turn().is_some() {
+        return state.say(
+            "A dial is turned: | takes it back; :save-as keeps this scene under a name of its own.",
+        );
+    }
+    match &state.work.place {
+        FilePlace::None | FilePlace::Builtin(_) => {
+            let suggestion = suggested_file(state);
+            state.open(Dialog::Prompt(Purpose::SaveAs, suggestion));
+        }
+        FilePlace::File(stamp) => {
+            let stamp = stamp.clone();
+            write(state, stamp.path(), Over::Known(&stamp));
         }
     }
+}
 
-    pub(crate) fn open(&mut self, name: &str) {
-        match self.read_scene(name) {
-            Ok((scene, source)) => {
-                self.leave_tour();
-                let (screen, options) = (self.screen, self.options);
-                let (rescue, put_away) = (self.rescue.take(), self.put_away.take());
-                let measuring = std::mem::take(&mut self.measuring);
-                let workplace = std::mem::take(&mut self.workplace);
-                *self = Self::new(scene, &source, options);
-                (self.screen, self.put_away) = (screen, put_away);
-                self.measuring = measuring;
-                self.workplace = workplace;
-                if let Some(rescue) = rescue {
-                    self.keep_in(&rescue.folder, &source);
-                }
-                let about = self.scene().about.clone().unwrap_or_default();
-                self.say(format!("{}. {about}", self.scene().name));
-            }
-            Err(sentence) => self.warn(sentence),
-        }
+/// Saves under a name that opens what was saved.
+pub(crate) fn save_as_named(state: &mut State, name: &str) {
+    if Builtin::by_name(name).is_some() {
+        return state.warn(format!(
+            "{name}: this name opens a built-in scene, expected another, such as ./{name}"
+        ));
     }
-
-    /// The scene of that name, or why it can't be had.
-    pub(crate) fn read_scene(&self, name: &str) -> Result<(Scene, Source), String> {
-        if let Some(builtin) = Builtin::by_name(name) {
-            return Ok((builtin.scene(), Source::Builtin(builtin)));
-        }
-        let path = self.workplace.reach(name)?;
-        Scene::open(path).map_err(|e| e.to_string())
+    match state.workplace.reach(name) {
+        Ok(path) => save_as(state, &path),
+        Err(sentence) => state.warn(sentence),
     }
+}
 
-    pub(crate) fn save(&mut self) {
-        if self.document.turn().is_some() {
-            return self.say(
-                "A dial is turned: | takes it back; :save-as keeps this scene under a name of its own.",
-            );
-        }
-        match &self.place {
-            FilePlace::None | FilePlace::Builtin(_) => {
-                let suggestion = self.suggested_file();
-                self.prompt(Purpose::SaveAs, &suggestion);
-            }
-            FilePlace::File(stamp) => {
-                let stamp = stamp.clone();
-                self.write(stamp.path(), Over::Known(&stamp));
+pub(crate) fn save_as(state: &mut State, path: &Path) {
+    let own = matches!(&state.work.place, FilePlace::File(stamp) if stamp.path() == path);
+    if own {
+        save(state);
+    } else {
+        write(state, path, Over::Nothing);
+    }
+}
+
+pub(crate) fn write(state: &mut State, path: &Path, over: Over<'_>) {
+    match disk::save(path, &state.scene().to_toml(), over) {
+        Ok(stamp) => {
+            state.work.place = FilePlace::File(stamp);
+            state.work.document.mark_saved();
+            keep::saved_as(state, path);
+            state.say(format!("Saved {}.", path.display()));
+            if std::mem::take(&mut state.quits_once_saved) {
+                state.ended = Some(0);
             }
         }
-    }
-
-    /// Saves under a name that opens what was saved.
-    pub(crate) fn save_as_named(&mut self, name: &str) {
-        if Builtin::by_name(name).is_some() {
-            self.warn(format!(
-                "{name}: this name opens a built-in scene, expected another, such as ./{name}"
-            ));
-        } else if let Some(path) = self.reach(name) {
-            self.save_as(&path);
+        Err(Unsaved::Occupied) => {
+            let why = match over {
+                Over::Known(_) => "was changed by somebody else since it was read",
+                Over::Nothing | Over::Anything => "exists already",
+            };
+            let path = path.to_owned();
+            state.ask(Confirmation::Overwrite { path, why });
         }
-    }
-
-    pub(crate) fn save_as(&mut self, path: &Path) {
-        let own = matches!(&self.place, FilePlace::File(stamp) if stamp.path() == path);
-        if own {
-            self.save();
-        } else {
-            self.write(path, Over::Nothing);
-        }
-    }
-
-    pub(crate) fn write(&mut self, path: &Path, over: Over<'_>) {
-        match disk::save(path, &self.scene().to_toml(), over) {
-            Ok(stamp) => {
-                self.place = FilePlace::File(stamp);
-                self.document.mark_saved();
-                self.saved_as(path);
-                self.say(format!("Saved {}.", path.display()));
-                if std::mem::take(&mut self.quits_once_saved) {
-                    self.ended = Some(0);
-                }
-            }
-            Err(Unsaved::Occupied) => {
-                let why = match over {
-                    Over::Known(_) => "was changed by somebody else since it was read",
-                    Over::Nothing | Over::Anything => "exists already",
-                };
-                let path = path.to_owned();
-                self.mode = Mode::Ask(Question::Overwrite { path, why });
-            }
-            Err(Unsaved::Failed(sentence)) => self.warn(sentence),
-        }
+        Err(Unsaved::Failed(sentence)) => state.warn(sentence),
     }
 }

@@ -2,11 +2,9 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use super::disk;
 use crate::door::typed;
-use crate::explorer::Explorer;
+use crate::explorer::files::disk;
 use crate::lab::BenchQueue;
-use crate::scene::Source;
 
 /// The surroundings of an explorer. By default it has none: no name of a file reaches anything, and
 /// nobody shares its queue.
@@ -84,24 +82,6 @@ impl Workplace {
             Ok(path) => disk::starting_with(&path, folder, &typed[folder.len()..]),
             Err(_) => Vec::new(),
         }
-    }
-}
-
-impl Explorer {
-    /// Works in that place: unsaved work is kept there if the terminal is lost, and what is there
-    /// already for the scene from `source` is offered.
-    pub fn work_in(&mut self, workplace: Workplace, source: &Source) {
-        let state = workplace.state.clone();
-        self.workplace = workplace;
-        if let Some(folder) = state {
-            self.keep_in(&folder, source);
-        }
-    }
-
-    /// The file of that name; says why not if it can't be had.
-    pub(crate) fn reach(&mut self, name: &str) -> Option<PathBuf> {
-        let reached = self.workplace.reach(name);
-        reached.map_err(|sentence| self.warn(sentence)).ok()
     }
 }
 

@@ -7,14 +7,14 @@ const LONGEST: usize = 4096;
 
 /// A line of text with a cursor in it.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Line {
+pub struct TypedLine {
     chars: Vec<char>,
     at: usize,
     /// The text is an old one, which goes when another is typed, and stays when it is edited.
     is_chosen: bool,
 }
 
-impl Line {
+impl TypedLine {
     /// A line that holds `text`, its cursor at the end.
     pub fn new(text: &str) -> Self {
         let mut line = Self::default();
@@ -108,7 +108,7 @@ impl Line {
 mod tests {
     use super::*;
 
-    fn typed(line: &mut Line, keys: &[&str]) -> String {
+    fn typed(line: &mut TypedLine, keys: &[&str]) -> String {
         for name in keys {
             assert!(line.edit(Key::parse(name).expect("a key")), "{name}");
         }
@@ -117,7 +117,7 @@ mod tests {
 
     #[test]
     fn a_chosen_text_is_typed_over_or_edited() {
-        let over = || Line::chosen("12.5");
+        let over = || TypedLine::chosen("12.5");
         assert_eq!(typed(&mut over(), &["7", "5"]), "75");
         assert_eq!(typed(&mut over(), &["backspace", "2"]), "12.2");
         assert_eq!(typed(&mut over(), &["left", "0"]), "12.05");
@@ -125,6 +125,6 @@ mod tests {
         let mut pasted = over();
         pasted.insert("0x1p3");
         assert_eq!(pasted.text(), "0x1p3");
-        assert_eq!(typed(&mut Line::new("ab"), &["c"]), "abc");
+        assert_eq!(typed(&mut TypedLine::new("ab"), &["c"]), "abc");
     }
 }

@@ -6,9 +6,13 @@
 
 use std::collections::BTreeMap;
 
-use crate::explain::{self, Line, Role, Setting};
-use crate::explorer::Explorer;
+use crate::explain::{self, DialSetting, Line, Role};
+use ratatui::layout::Rect;
+
+use crate::explorer::action::Action;
 use crate::explorer::panel::Panel;
+use crate::explorer::panel::component::{AS_FIGURE, Component};
+use crate::explorer::state::State;
 use crate::lab::picture::{PictureErrors, PixelError, pixel_errors};
 use crate::lab::{Dial, Turn};
 use crate::method::Method;
@@ -18,9 +22,9 @@ use crate::text;
 
 /// The dial that was chosen, and what it has shown so far.
 #[derive(Debug)]
-pub(crate) struct Dialing {
+pub(crate) struct DialPanel {
     pub(crate) dial: &'static Dial,
-    /// What the picture on the screen gets wrong, row by row; empty where nobody asked.
+    /// What the picture on the screen gets wrong, row by row; empty where that is not asked.
     errors: Vec<PixelError>,
     errors_of: Option<(u64, Rays, Method)>,
     /// What each setting that was tried gets wrong.
@@ -38,7 +42,7 @@ struct FoundOf {
     shape: PixelShape,
 }
 
-impl Default for Dialing {
+impl Default for DialPanel {
     fn default() -> Self {
         Self {
             dial: &Dial::ALL[0],
@@ -54,7 +58,7 @@ impl Default for Dialing {
 /// hundredths of a second. In larger scenes only those are tried that tell where it broke.
 const MOST_ASKED: usize = 2_000_000;
 
-impl Dialing {
+impl DialPanel {
     /// Whether a cell shows a pixel that is wrong.
     pub(crate) fn wrong_cells(&self, style: Style, size: Size) -> Vec<(u32, u32)> {
         let width = size.width.max(1) as usize;
@@ -75,154 +79,167 @@ impl Dialing {
     }
 }
 
-impl Explorer {
+impl Component for DialPanel {
+    fn text(&self, state: &State, room: Rect) -> (String, Vec<Line>) {
+        let lines = self.lines(state, room.width.into(), room.height.into());
+        (format!("dial: {}", self.dial.name), lines)
+    }
+
+    fn foot(&self, _: &State) -> String {
+        "\\ turn on  | back  9 next dial".into()
+    }
+
+    fn act(&mut self, action: Action, state: &mut State) -> bool {
+        match action {
+            Action::NextDial => self.next_dial(state),
+            Action::TurnOn => self.turn_on(state),
+            Action::TurnBack => self.turn_back(state),
+            _ => return false,
+        }
+        true
+    }
+
+    /// Finds out what the picture on the screen gets wrong, if it is marked.
+    fn refresh(&mut self, state: &State) {
+        // After undoing and redoing, the dial that is turned is the one that is chosen.
+        if let Some(turn) = state.work.document.turn() {
+            self.dial = turn.dial;
+        }
+        if !marks_wrong(state) {
+            self.errors.clear();
+            self.errors_of = None;
+            return;
+        }
+        let (rays, method) = (state.picture.rays, state.at.method);
+        let key = (state.work.document.version(), rays, method);
+        if self.errors_of != Some(key) {
+            self.errors = pixel_errors(state.scene(), &rays, method);
+            self.errors_of = Some(key);
+        }
+        self.try_settings(state);
+    }
+
+    fn size_as_text(&self) -> (u16, u16) {
+        AS_FIGURE
+    }
+}
+
+impl DialPanel {
     /// Shows the dial; when it is shown already, chooses the next one.
-    pub(crate) fn next_dial(&mut self) {
-        if self.panel != Panel::Dial {
-            self.panel = Panel::Dial;
+    fn next_dial(&mut self, state: &mut State) {
+        if state.at.panel != Panel::Dial {
+            state.at.panel = Panel::Dial;
             return;
         }
         let dials: Vec<_> = Dial::of_scenes().collect();
-        let now = dials.iter().position(|&d| d == self.dialing.dial);
-        self.choose_dial(dials[now.map_or(0, |at| at + 1) % dials.len()]);
+        let now = dials.iter().position(|&d| d == self.dial);
+        self.choose_dial(state, dials[now.map_or(0, |at| at + 1) % dials.len()]);
     }
 
     /// Chooses a dial; the one before is taken back.
-    fn choose_dial(&mut self, dial: &'static Dial) {
+    fn choose_dial(&mut self, state: &mut State, dial: &'static Dial) {
         let other = |turn: Turn| turn.dial != dial;
-        if self.document.turn().is_some_and(other) {
-            self.document.turn_back();
+        if state.work.document.turn().is_some_and(other) {
+            state.work.document.turn_back();
         }
-        self.dialing.dial = dial;
+        self.dial = dial;
     }
 
     /// Turns the dial one setting on, towards where it breaks.
-    pub(crate) fn turn_on(&mut self) {
-        let dial = self.dialing.dial;
-        let now = self.setting();
+    fn turn_on(&mut self, state: &mut State) {
+        let dial = self.dial;
+        let now = setting(state);
         match dial.turns().find(|&k| k > now) {
-            Some(k) => self.set_dial(k),
-            None => self.say(format!("{} goes no further.", dial.name)),
+            Some(k) => self.set_dial(state, k),
+            None => state.say(format!("{} goes no further.", dial.name)),
         }
     }
 
     /// Turns the dial one setting back, towards the scene as it was.
-    pub(crate) fn turn_back(&mut self) {
-        let dial = self.dialing.dial;
-        match self.setting() {
-            0 => self.say("No dial is turned: the scene is as it was."),
-            now => self.set_dial(dial.turns().take_while(|&k| k < now).last().unwrap_or(0)),
+    fn turn_back(&mut self, state: &mut State) {
+        let dial = self.dial;
+        match setting(state) {
+            0 => state.say("No dial is turned: the scene is as it was."),
+            now => self.set_dial(
+                state,
+                dial.turns().take_while(|&k| k < now).last().unwrap_or(0),
+            ),
         }
-    }
-
-    /// How far the chosen dial is turned; 0 if it is not.
-    fn setting(&self) -> u32 {
-        self.document.turn().map_or(0, |turn| turn.k)
     }
 
     /// Turns the chosen dial to 2^k; 0 takes it back.
-    fn set_dial(&mut self, k: u32) {
-        let dial = self.dialing.dial;
+    fn set_dial(&self, state: &mut State, k: u32) {
+        let dial = self.dial;
         if k == 0 {
-            self.document.turn_back();
-            self.say("The scene is as it was.");
+            state.work.document.turn_back();
+            state.say("The scene is as it was.");
             return;
         }
         let turn = Turn { dial, k };
-        let Some(scene) = dial.turn(self.document.ground(), k) else {
+        let Some(scene) = dial.turn(state.work.document.ground(), k) else {
             let reason = match dial.name {
                 "altitude" => "binary32 cannot tell that place from the surface",
                 _ => "a number would leave the range of binary32",
             };
-            return self.say(format!("{}: {reason}.", turn.formula()));
+            return state.say(format!("{}: {reason}.", turn.formula()));
         };
-        if !self.document.turn_to(turn, scene) {
-            self.say(format!("{}: that changes nothing here.", turn.formula()));
+        if !state.work.document.turn_to(turn, scene) {
+            state.say(format!("{}: that changes nothing here.", turn.formula()));
         }
     }
 
     /// Turns the dial of that name to 2^k, or shows it where it stands.
-    pub(crate) fn dial_to(&mut self, dial: &'static Dial, k: Option<u32>) {
-        self.choose_dial(dial);
-        if self.screen.0 > 0 {
-            self.panel = Panel::Dial;
+    pub(crate) fn dial_to(&mut self, state: &mut State, dial: &'static Dial, k: Option<u32>) {
+        self.choose_dial(state, dial);
+        if state.screen.0 > 0 {
+            state.at.panel = Panel::Dial;
         }
         if let Some(k) = k {
-            self.set_dial(k);
+            self.set_dial(state, k);
         }
-    }
-
-    /// After undoing and redoing: the dial that is turned is the one that is chosen.
-    pub(crate) fn follow_dial(&mut self) {
-        if let Some(turn) = self.document.turn() {
-            self.dialing.dial = turn.dial;
-        }
-    }
-
-    /// Whether wrong pixels are marked: while a dial is turned or shown.
-    pub(crate) fn marks_wrong(&self) -> bool {
-        self.document.turn().is_some() || self.panel == Panel::Dial
-    }
-
-    /// Finds out what the picture on the screen gets wrong, if anybody wants to know.
-    pub(crate) fn find_errors(&mut self) {
-        let (rays, method) = (self.picture.rays, self.options.method);
-        let key = (self.document.version(), rays, method);
-        if !self.marks_wrong() {
-            self.dialing.errors.clear();
-            self.dialing.errors_of = None;
-            return;
-        }
-        if self.dialing.errors_of != Some(key) {
-            self.dialing.errors = pixel_errors(self.document.scene(), &rays, method);
-            self.dialing.errors_of = Some(key);
-        }
-        self.try_settings();
     }
 
     /// Notes what the present setting gets wrong, and tries others to tell where the dial broke.
-    fn try_settings(&mut self) {
-        let Some(shape) = self.picture.key.map(|key| key.shape) else {
+    fn try_settings(&mut self, state: &State) {
+        let Some(shape) = state.picture.key.map(|key| key.shape) else {
             return;
         };
         let key = FoundOf {
-            ground: self.document.ground_version(),
-            dial: self.dialing.dial,
-            method: self.options.method,
-            size: self.size(),
+            ground: state.work.document.ground_version(),
+            dial: self.dial,
+            method: state.at.method,
+            size: state.size(),
             shape,
         };
-        if self.dialing.found_of != Some(key) {
-            self.dialing.found.clear();
-            self.dialing.found_of = Some(key);
+        if self.found_of != Some(key) {
+            self.found.clear();
+            self.found_of = Some(key);
         }
-        let now = PictureErrors::of(&self.dialing.errors);
-        let setting = self.setting();
-        self.dialing.found.insert(setting, now);
-        let all: Vec<u32> = std::iter::once(0)
-            .chain(self.dialing.dial.turns())
-            .collect();
-        let spheres = self.scene().bodies.len();
-        let asked = self
+        let now = PictureErrors::of(&self.errors);
+        let setting = setting(state);
+        self.found.insert(setting, now);
+        let all: Vec<u32> = std::iter::once(0).chain(self.dial.turns()).collect();
+        let spheres = state.scene().bodies.len();
+        let asked = state
             .size()
             .area()
             .saturating_mul(spheres)
             .saturating_mul(all.len());
         if asked <= MOST_ASKED {
             for k in all {
-                self.try_setting(k, shape);
+                self.try_setting(state, k, shape);
             }
         } else {
-            self.try_setting(0, shape);
-            self.halve(&all, shape);
+            self.try_setting(state, 0, shape);
+            self.halve(state, &all, shape);
         }
     }
 
     /// Tries the setting half way between the last good and the first bad one, until they are
     /// neighbours.
-    fn halve(&mut self, all: &[u32], shape: PixelShape) {
-        while let Some(bad) = self.dialing.broke() {
-            let good = self.dialing.found.range(..bad).next_back();
+    fn halve(&mut self, state: &State, all: &[u32], shape: PixelShape) {
+        while let Some(bad) = self.broke() {
+            let good = self.found.range(..bad).next_back();
             let Some((&good, _)) = good else { return };
             let between: Vec<u32> = all
                 .iter()
@@ -232,30 +249,30 @@ impl Explorer {
             if between.is_empty() {
                 return;
             }
-            self.try_setting(between[between.len() / 2], shape);
+            self.try_setting(state, between[between.len() / 2], shape);
         }
     }
 
-    fn try_setting(&mut self, k: u32, shape: PixelShape) {
-        if self.dialing.found.contains_key(&k) {
+    fn try_setting(&mut self, state: &State, k: u32, shape: PixelShape) {
+        if self.found.contains_key(&k) {
             return;
         }
-        let ground = self.document.ground();
+        let ground = state.work.document.ground();
         let turned = match k {
             0 => Some(ground.clone()),
-            k => self.dialing.dial.turn(ground, k),
+            k => self.dial.turn(ground, k),
         };
         let errors = turned.map_or(PictureErrors::default(), |scene| {
-            let rays = Rays::new(&scene.camera, self.size(), shape);
-            PictureErrors::of(&pixel_errors(&scene, &rays, self.options.method))
+            let rays = Rays::new(&scene.camera, state.size(), shape);
+            PictureErrors::of(&pixel_errors(&scene, &rays, state.at.method))
         });
-        self.dialing.found.insert(k, errors);
+        self.found.insert(k, errors);
     }
 
-    /// The dial, where it stands, what is wrong there, where it broke, and the way there.
-    pub(crate) fn dial_lines(&self, cols: usize, rows: usize) -> Vec<Line> {
-        let Dialing { dial, found, .. } = &self.dialing;
-        let (now, method) = (self.setting(), self.options.method);
+    /// How far the dial is turned, what is wrong there, where it broke, and the way there.
+    fn lines(&self, state: &State, cols: usize, rows: usize) -> Vec<Line> {
+        let Self { dial, found, .. } = self;
+        let (now, method) = (setting(state), state.at.method);
         let mut lines = Vec::new();
         let mut say = |role: Role, text: &str| {
             let wrapped = text::wrap(text, cols).into_iter();
@@ -266,7 +283,7 @@ impl Explorer {
             k => say(Role::Label, &Turn { dial, k }.formula()),
         }
         say(Role::Faint, dial.on_scenes().unwrap_or(dial.about));
-        if !self.marks_wrong() {
+        if !marks_wrong(state) {
             say(
                 Role::Plain,
                 "\\ turns it on, from tame to broken; | turns it back.",
@@ -280,7 +297,7 @@ impl Explorer {
             Role::Plain
         };
         say(role, &format!("{method}: {}", in_words(&errors)));
-        match (self.dialing.broke(), dial.turns().last()) {
+        match (self.broke(), dial.turns().last()) {
             (Some(k), _) => {
                 let wrong = found[&k].total_wrong();
                 let formula = Turn { dial, k }.formula();
@@ -298,10 +315,10 @@ impl Explorer {
             }
             (None, _) => say(Role::Plain, &format!("{method} has not broken so far.")),
         }
-        let settings: Vec<Setting> = found
+        let settings: Vec<DialSetting> = found
             .iter()
             .filter(|(_, errors)| errors.pixels > 0)
-            .map(|(&k, errors)| Setting {
+            .map(|(&k, errors)| DialSetting {
                 k,
                 wrong: errors.total_wrong() as f64 / errors.pixels as f64,
                 bits: errors.bits.map(|[median, _]| median),
@@ -309,10 +326,20 @@ impl Explorer {
             .collect();
         let most = dial.turns().last().unwrap_or(1);
         let room = rows.saturating_sub(lines.len());
-        let glyphs = self.options.glyphs;
+        let glyphs = state.options.glyphs;
         lines.extend(explain::turning(&settings, now, most, cols, room, glyphs));
         lines
     }
+}
+
+/// How far the chosen dial is turned; 0 if it is not.
+fn setting(state: &State) -> u32 {
+    state.work.document.turn().map_or(0, |turn| turn.k)
+}
+
+/// Whether wrong pixels are marked: while a dial is turned or shown.
+fn marks_wrong(state: &State) -> bool {
+    state.work.document.turn().is_some() || state.at.panel == Panel::Dial
 }
 
 /// What is wrong with a picture, by kind.

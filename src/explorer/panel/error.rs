@@ -1,7 +1,7 @@
 //! Error against run time for the picture on the screen: timed when asked, on a thread of its own.
 //!
-//! The thread gets copies, sends its report through a channel and rings the waker: whoever waits
-//! for input then calls [`Explorer::catch_up`]. Nobody waits for the thread.
+//! The thread gets copies, sends its report through a channel and rings the waker: the loop that
+//! waits for input then has the panel take the report. Nothing waits for the thread.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -9,9 +9,13 @@ use std::sync::mpsc::{self, Receiver, Sender, TryRecvError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::explain::{Line, Role};
-use crate::explorer::Explorer;
+use ratatui::layout::Rect;
+
+use crate::explain::{self, Line, Role};
+use crate::explorer::action::Action;
 use crate::explorer::panel::Panel;
+use crate::explorer::panel::component::{AS_FIGURE, Component, show};
+use crate::explorer::state::State;
 use crate::lab::bench::Benchmark;
 use crate::lab::picture::{NoChart, chart};
 use crate::lab::timing::SelfCheck;
@@ -22,7 +26,7 @@ use crate::text;
 
 /// What was measured, what is being measured, and why there is nothing.
 #[derive(Debug, Default)]
-pub(crate) struct Measuring {
+pub(crate) struct ErrorPanel {
     pub(crate) waker: Waker,
     pub(crate) chart: Option<Chart>,
     run: Option<Run>,
@@ -146,7 +150,7 @@ impl Run {
     }
 }
 
-impl Measuring {
+impl ErrorPanel {
     /// Whether a measurement is on its way.
     pub(crate) const fn is_running(&self) -> bool {
         self.run.is_some()
@@ -216,26 +220,60 @@ impl Chart {
         if cfg!(debug_assertions) {
             remarks.push((Role::Warning, "Not an optimised build.".into()));
         }
-        let abouts = self.report.sets.iter().map(|chapter| &chapter.about);
+        let abouts = self.report.sets.iter().map(|set| &set.about);
         remarks.extend(abouts.map(|about| (Role::Faint, about.clone())));
         remarks
     }
 }
 
-impl Explorer {
-    /// Has the explorer ring `waker` when something comes in that [`Explorer::catch_up`] takes.
-    pub fn wake_by(&mut self, waker: Waker) {
-        self.measuring.waker = waker;
+impl Component for ErrorPanel {
+    fn text(&self, state: &State, room: Rect) -> (String, Vec<Line>) {
+        let width = room.width.into();
+        let mut lines = self.remarks(width);
+        if let Some(chart) = &self.chart {
+            let rows = usize::from(room.height).saturating_sub(lines.len());
+            let sets = chart.report.sets.iter();
+            let glyphs = state.options.glyphs;
+            lines.extend(sets.flat_map(|c| explain::work(c, width, rows, glyphs)));
+        }
+        ("error against run time".to_owned(), lines)
     }
 
-    /// Whether a thread is at work whose result is to come.
-    pub fn is_measuring(&self) -> bool {
-        self.measuring.is_running()
+    fn foot(&self, _: &State) -> String {
+        if self.is_running() {
+            "% stop".into()
+        } else {
+            "% measure".into()
+        }
     }
 
-    /// Takes what threads have to say; false if nothing on the screen can have changed.
-    pub fn catch_up(&mut self) -> bool {
-        let Some(run) = &mut self.measuring.run else {
+    fn act(&mut self, action: Action, state: &mut State) -> bool {
+        match action {
+            Action::PanelError => show(state, Panel::Error),
+            Action::Measure => self.measure(state),
+            _ => return false,
+        }
+        true
+    }
+
+    /// Finds out whether the chart is of the picture on the screen.
+    fn refresh(&mut self, state: &State) {
+        let key = (state.work.document.version(), state.picture.rays);
+        if let Some(chart) = self.chart.as_mut().filter(|chart| chart.seen != Some(key)) {
+            chart.is_stale = !chart.of.is(state.scene(), &key.1);
+            chart.seen = Some(key);
+        }
+    }
+
+    fn size_as_text(&self) -> (u16, u16) {
+        AS_FIGURE
+    }
+}
+
+impl ErrorPanel {
+    /// Takes what the thread has to say; false if nothing on the screen can have changed.
+    pub(crate) fn catch_up(&mut self, state: &mut State) -> bool {
+        let Some(run) = &mut self.run else {
             return false;
         };
         let mut any = false;
@@ -250,76 +288,61 @@ impl Explorer {
                 Err(TryRecvError::Disconnected) => Err(NoChart::Failed("it broke off".into())),
             };
             let of = run.of.clone();
-            self.measuring.run = None;
-            self.end_measuring(of, end);
+            self.run = None;
+            self.end(of, end);
+            if state.at.panel != Panel::Error {
+                state.say("Measured. 7 shows error against run time.");
+            }
             return true;
         }
     }
 
-    fn end_measuring(&mut self, of: Subject, end: Result<Benchmark, NoChart>) {
+    fn end(&mut self, of: Subject, end: Result<Benchmark, NoChart>) {
         match end {
             Ok(report) => {
-                self.measuring.chart = Some(Chart {
+                self.chart = Some(Chart {
                     report,
                     of,
                     seen: None,
                     is_stale: false,
                 });
-                self.measuring.refusal = None;
+                self.refusal = None;
             }
-            Err(refusal) => self.measuring.refusal = Some(refusal),
-        }
-        if self.panel != Panel::Error {
-            self.say("Measured. 7 shows error against run time.");
+            Err(refusal) => self.refusal = Some(refusal),
         }
     }
 
     /// Times all methods on the questions of this picture, or stops doing so.
-    pub(crate) fn measure(&mut self) {
-        self.panel = Panel::Error;
-        if self.measuring.run.take().is_some() {
-            self.measuring.refusal = Some(NoChart::Cancelled);
+    fn measure(&mut self, state: &mut State) {
+        state.at.panel = Panel::Error;
+        if self.run.take().is_some() {
+            self.refusal = Some(NoChart::Cancelled);
             return;
         }
-        // The scene may have changed since it was last drawn.
-        let (cols, rows) = self.screen;
-        self.prepare(cols, rows);
         let of = Subject {
-            scene: self.scene().clone(),
-            rays: self.picture.rays,
+            scene: state.scene().clone(),
+            rays: state.picture.rays,
         };
-        let (queue, waker) = (self.workplace.queue.clone(), self.measuring.waker.clone());
-        match Run::start(of, queue, waker) {
+        let queue = state.workplace.queue.clone();
+        match Run::start(of, queue, self.waker.clone()) {
             Ok(run) => {
-                self.measuring.run = Some(run);
-                self.measuring.refusal = None;
+                self.run = Some(run);
+                self.refusal = None;
             }
-            Err(refusal) => self.measuring.refusal = Some(refusal),
+            Err(refusal) => self.refusal = Some(refusal),
         }
     }
 
     /// Calls a measurement off before this process stops, and waits until its thread has let go of
     /// the right to measure: a process that is stopped with it would hold up all others.
-    pub fn pause(&mut self) {
-        if let Some(run) = self.measuring.run.take() {
+    pub(crate) fn pause(&mut self) {
+        if let Some(run) = self.run.take() {
             run.cancel.store(true, Ordering::Relaxed);
             // Between two rounds it looks; one that takes longer is not worth a terminal that hangs.
             let deadline = Instant::now() + RELEASE;
             let left = || deadline.saturating_duration_since(Instant::now());
             while let Ok(News::Waits(_)) = run.news.recv_timeout(left()) {}
-            self.measuring.refusal = Some(NoChart::Cancelled);
-        }
-    }
-
-    /// Finds out whether the chart is of the picture on the screen.
-    pub(crate) fn date_chart(&mut self) {
-        let key = (self.document.version(), self.picture.rays);
-        let Some(chart) = &mut self.measuring.chart else {
-            return;
-        };
-        if chart.seen != Some(key) {
-            chart.is_stale = !chart.of.is(self.document.scene(), &key.1);
-            chart.seen = Some(key);
+            self.refusal = Some(NoChart::Cancelled);
         }
     }
 }

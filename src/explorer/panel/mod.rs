@@ -1,69 +1,78 @@
 //! Which panels there are, and how they share the space beside the picture.
+//!
+//! A panel is a line of the list below and a file, which owns its state, its actions, its lines and
+//! its foot.
 
+pub(crate) mod bits;
+pub(crate) mod board;
+pub(crate) mod compare;
+pub(crate) mod component;
+pub(crate) mod curve;
 pub(crate) mod dial;
-pub(crate) mod draw;
 pub(crate) mod error;
+pub(crate) mod plan;
+pub(crate) mod quadratic;
+pub(crate) mod slice;
 pub(crate) mod steps;
 
 use ratatui::layout::Rect;
 
-/// A panel beside the picture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum Panel {
-    /// A, B, C, Δ, the roots and the point of the ray under the cursor.
-    #[default]
-    Quadratic,
-    /// The derivation, a step at a time.
-    Steps,
-    /// The plane through ray and centre.
-    Slice,
-    /// f(t) = At² + Bt + C.
-    Curve,
-    /// The bits of a number.
-    Bits,
-    /// The methods side by side.
-    Compare,
-    /// Error against run time for this picture.
-    Error,
-    /// What the frame needed, and what was left out.
-    Plan,
-    /// A dial on the scene, and what the method gets wrong.
-    Dial,
+/// Hands the list of panels to a macro: name in the code, file and name on the command line, the
+/// component, what it shows. The order is that of the keys, and the one in which panels fill what
+/// room there is.
+macro_rules! with_panels {
+    ($use:ident) => {
+        $use! {
+            Quadratic quadratic QuadraticPanel "A, B, C, Δ, the roots and the point of the ray under the cursor.";
+            Steps steps StepsPanel "The derivation, a step at a time.";
+            Slice slice SlicePanel "The plane through ray and centre.";
+            Curve curve CurvePanel "f(t) = At² + Bt + C.";
+            Bits bits BitsPanel "The bits of a number.";
+            Compare compare ComparePanel "The methods side by side.";
+            Error error ErrorPanel "Error against run time for this picture.";
+            Plan plan PlanPanel "What the frame needed, and what was left out.";
+            Dial dial DialPanel "A dial on the scene, and what the method gets wrong.";
+        }
+    };
 }
+pub(crate) use with_panels;
+
+macro_rules! names {
+    ($($panel:ident $name:ident $component:ident $about:literal;)*) => {
+        /// A panel beside the picture.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        pub enum Panel {
+            $(
+                #[doc = $about]
+                $panel,
+            )*
+        }
+
+        impl Default for Panel {
+            fn default() -> Self {
+                Self::ALL[0]
+            }
+        }
+
+        impl Panel {
+            /// All panels, in the order of their keys.
+            pub const ALL: [Self; [$(stringify!($name)),*].len()] = [$(Self::$panel),*];
+
+            /// The name on the command line.
+            pub const fn name(self) -> &'static str {
+                match self {
+                    $(Self::$panel => stringify!($name),)*
+                }
+            }
+        }
+    };
+}
+with_panels!(names);
 
 /// The least width and height that a panel is useful in.
 const LEAST: (u16, u16) = (46, 21);
 
 impl Panel {
-    /// All panels, in the order of their keys, which is also the order in which they fill what room
-    /// there is.
-    pub const ALL: [Self; 9] = [
-        Self::Quadratic,
-        Self::Steps,
-        Self::Slice,
-        Self::Curve,
-        Self::Bits,
-        Self::Compare,
-        Self::Error,
-        Self::Plan,
-        Self::Dial,
-    ];
-
-    /// The name on the command line.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Quadratic => "quadratic",
-            Self::Steps => "steps",
-            Self::Slice => "slice",
-            Self::Curve => "curve",
-            Self::Bits => "bits",
-            Self::Compare => "compare",
-            Self::Error => "error",
-            Self::Plan => "plan",
-            Self::Dial => "dial",
-        }
-    }
-
     /// The panels that fit into `side`, each with its place: `first`, then the others in order.
     pub fn tiles(side: Rect, first: Self) -> Vec<(Self, Rect)> {
         if side.is_empty() {

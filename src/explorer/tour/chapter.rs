@@ -1,8 +1,8 @@
-//! The tour as data: chapters of pages, each a short text and the state that it speaks of.
+//! The tour as data: chapters of pages, each a short text and the setup that it speaks of.
 //!
 //! A chapter is a TOML file; those of the tour that comes with the program lie in the folder beside
-//! this one. `docs/tour.md` tells how to write one. How the explorer walks through them is in
-//! `touring`.
+//! this one; `docs/tour.md` says how to write one. How the explorer walks through them is in
+//! `tour`.
 
 use std::fs;
 use std::ops::Range;
@@ -15,11 +15,9 @@ use toml::Spanned;
 
 use crate::door::{Expected, FileError, TextPosition};
 use crate::explorer::arrival::Target;
-use crate::explorer::command::{Command, choice};
 use crate::explorer::edit::field;
-use crate::explorer::panel::Panel;
-use crate::method::Method;
-use crate::render::{Style, View};
+use crate::explorer::setting::{self, Setting, SettingRow};
+use crate::explorer::viewpoint::Viewpoint;
 use crate::scene::{Builtin, Scene, Size, Source, value};
 
 /// A walk through some pages, in their order.
@@ -42,27 +40,23 @@ pub struct Page {
     pub text: Vec<String>,
     /// What there is to do.
     pub attempt: Option<String>,
-    pub(crate) state: State,
+    pub(crate) setup: Setup,
 }
 
 /// The state of the explorer that a page speaks of.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct State {
+pub(crate) struct Setup {
     /// The scene, with the page's own numbers in it.
     pub(crate) scene: Arc<Scene>,
     /// Where the scene came from; none if it is written in the chapter.
     pub(crate) source: Option<Source>,
-    pub(crate) sphere: Option<usize>,
     pub(crate) target: Target,
-    pub(crate) method: Method,
-    pub(crate) view: View,
-    /// None: as the person has it.
-    pub(crate) style: Option<Style>,
-    pub(crate) panel: Panel,
-    pub(crate) compare: Option<Method>,
+    /// How it is looked at; the cursor is put on the target.
+    pub(crate) at: Viewpoint,
+    /// Whether the style is the page's own, or as the person has it.
+    pub(crate) has_style: bool,
+    /// The step of the derivation, by name or number.
     pub(crate) step: Option<String>,
-    /// Where the moving point of slice and curve is; none: at what is seen.
-    pub(crate) t: Option<f64>,
     pub(crate) predict: bool,
     pub(crate) board: bool,
 }
@@ -180,7 +174,7 @@ impl Chapter {
             .map_err(|refused| located(Some(written.title.span()), format!("title: {refused}")))?;
         let mut pages: Vec<Page> = Vec::new();
         for page in written.page {
-            let before = pages.last().map(|p| &p.state);
+            let before = pages.last().map(|p| &p.setup);
             let made = page.into_page(before, folder);
             pages.push(made.map_err(|PageFault { at, problem }| {
                 let number = pages.len() + 1;
@@ -264,8 +258,8 @@ impl PageFault {
 }
 
 impl PageFile {
-    fn into_page(self, before: Option<&State>, folder: Option<&Path>) -> Result<Page, PageFault> {
-        let state = self.state(before, folder)?;
+    fn into_page(self, before: Option<&Setup>, folder: Option<&Path>) -> Result<Page, PageFault> {
+        let setup = self.setup(before, folder)?;
         let text = prose(&self.text, "text")?;
         if text.is_empty() {
             return Err(PageFault::at(
@@ -277,17 +271,17 @@ impl PageFile {
         Ok(Page {
             text,
             attempt: attempt.map(|paragraphs| paragraphs.join(" ")),
-            state,
+            setup,
         })
     }
 
-    fn state(&self, before: Option<&State>, folder: Option<&Path>) -> Result<State, PageFault> {
-        let mut state = match (&self.scene, before) {
+    fn setup(&self, before: Option<&Setup>, folder: Option<&Path>) -> Result<Setup, PageFault> {
+        let mut setup = match (&self.scene, before) {
             (Some(scene), _) => {
                 let (scene, source) = open_scene(scene, folder)?;
                 match before {
                     Some(before) => before.in_scene(scene, source),
-                    None => State::first(scene, source),
+                    None => Setup::first(scene, source),
                 }
             }
             (None, Some(before)) => before.clone(),
@@ -296,9 +290,9 @@ impl PageFile {
                 return Err(PageFault::at(&self.text, problem));
             }
         };
-        (state.predict, state.board) = (self.predict, self.board);
+        (setup.predict, setup.board) = (self.predict, self.board);
         if let Some(number) = &self.sphere {
-            let count = state.scene.bodies.len();
+            let count = setup.scene.bodies.len();
             let at = number.get_ref().wrapping_sub(1);
             if at >= count {
                 let problem = format!(
@@ -307,45 +301,43 @@ impl PageFile {
                 );
                 return Err(PageFault::at(number, problem));
             }
-            state.sphere = Some(at);
+            setup.at.sphere = Some(at);
         }
-        self.set_numbers(&mut state)?;
-        if let Some(target) = self.target(&state.scene)? {
-            state.target = target;
+        self.set_numbers(&mut setup)?;
+        if let Some(target) = self.target(&setup.scene)? {
+            setup.target = target;
         }
-        if let Some(method) = named(self.method.as_ref(), "method", Method::ALL, Method::name)? {
-            state.method = method;
+        let named = [
+            ("method", &self.method),
+            ("view", &self.view),
+            ("style", &self.style),
+            ("panel", &self.panel),
+            ("compare", &self.compare),
+        ];
+        for (name, word) in named {
+            if let Some(word) = word {
+                setup.at.put(&read_setting(name, word, word.get_ref())?);
+            }
         }
-        if let Some(view) = named(self.view.as_ref(), "view", View::ALL, View::name)? {
-            state.view = view;
-        }
-        if let Some(style) = named(self.style.as_ref(), "style", Style::ALL, Style::name)? {
-            state.style = Some(style);
-        }
-        if let Some(panel) = named(self.panel.as_ref(), "panel", Panel::ALL, Panel::name)? {
-            state.panel = panel;
-        }
-        let compare = named(self.compare.as_ref(), "compare", Method::ALL, Method::name)?;
-        state.compare = compare.or(state.compare);
-        state.step.clone_from(&self.step);
-        state.t = self.t;
-        Ok(state)
+        setup.has_style |= self.style.is_some();
+        setup.step.clone_from(&self.step);
+        setup.at.t = self.t;
+        Ok(setup)
     }
 
-    fn set_numbers(&self, state: &mut State) -> Result<(), PageFault> {
-        if self.set.is_empty() {
+    fn set_numbers(&self, setup: &mut Setup) -> Result<(), PageFault> {
+        let Some(first) = self.set.first() else {
             return Ok(());
-        }
+        };
         let mut numbers = Vec::new();
         for line in &self.set {
-            let command = Command::parse(&format!("set {}", line.get_ref()));
-            if let Command::Set(field, value) = command.map_err(|e| PageFault::at(line, e))? {
+            if let Setting::Set(field, value) = read_setting("set", line, line.get_ref())? {
                 numbers.push((field, value));
             }
         }
-        let scene = field::set_all(&state.scene, state.selected(), &numbers);
-        let refused = |e| PageFault::at(&self.set[0], format!("set: {e}"));
-        state.scene = Arc::new(scene.map_err(refused)?);
+        let scene = field::set_all(&setup.scene, setup.at.sphere, &numbers);
+        let refused = |e| PageFault::at(first, format!("set: {e}"));
+        setup.scene = Arc::new(scene.map_err(refused)?);
         Ok(())
     }
 
@@ -377,21 +369,17 @@ impl PageFile {
     }
 }
 
-impl State {
+impl Setup {
     /// How a chapter begins where its first page says nothing else.
     fn first(scene: Scene, source: Option<Source>) -> Self {
+        let size = scene.pixels.unwrap_or(Size::new(1, 1));
         Self {
+            at: Viewpoint::of(&scene, size),
             scene: Arc::new(scene),
             source,
-            sphere: None,
             target: Target::Center,
-            method: Method::default(),
-            view: View::default(),
-            style: None,
-            panel: Panel::default(),
-            compare: None,
+            has_style: false,
             step: None,
-            t: None,
             predict: false,
             board: false,
         }
@@ -399,19 +387,24 @@ impl State {
 
     /// The same look at another scene, from its centre.
     fn in_scene(&self, scene: Scene, source: Option<Source>) -> Self {
+        let first = Self::first(scene, source);
         Self {
-            scene: Arc::new(scene),
-            source,
-            sphere: None,
-            target: Target::Center,
-            ..self.clone()
+            at: Viewpoint {
+                sphere: first.at.sphere,
+                ..self.at
+            },
+            has_style: self.has_style,
+            ..first
         }
     }
+}
 
-    /// The sphere that is selected: the one named, else the first.
-    pub(crate) fn selected(&self) -> Option<usize> {
-        self.sphere.or((!self.scene.bodies.is_empty()).then_some(0))
-    }
+/// A setting that a page names.
+fn read_setting<T>(name: &str, place: &Spanned<T>, text: &str) -> Result<Setting, PageFault> {
+    let row = SettingRow::by_name(name);
+    let setting = row.map(|row| setting::parse(row, text));
+    let setting = setting.unwrap_or_else(|| Err(format!("{name}: expected a setting")));
+    setting.map_err(|problem| PageFault::at(place, problem))
 }
 
 /// A scene by what a page says of it: the text of a scene file, a built-in name, or a file.
@@ -435,18 +428,6 @@ fn open_scene(
     let file = folder.map_or_else(|| text.into(), |folder| folder.join(text));
     let (scene, source) = Scene::open(&file).map_err(refused)?;
     Ok((scene, Some(source)))
-}
-
-fn named<T: Copy>(
-    word: Option<&Spanned<String>>,
-    what: &str,
-    all: impl IntoIterator<Item = T>,
-    name: impl Fn(T) -> &'static str,
-) -> Result<Option<T>, PageFault> {
-    word.map(|word| {
-        choice(word.get_ref(), what, all, name).map_err(|problem| PageFault::at(word, problem))
-    })
-    .transpose()
 }
 
 /// The paragraphs of what a page says, in which nothing may steer a terminal.

@@ -1,0 +1,33 @@
+//! Going back and forth in what was changed.
+
+use crate::explorer::action::Action;
+use crate::explorer::edit::document::{Change, Document};
+use crate::explorer::edit::spheres;
+use crate::explorer::state::State;
+
+/// Does an action on the history; false if it is another's.
+pub(crate) fn act(action: Action, state: &mut State) -> bool {
+    match action {
+        Action::Undo => travel(state, Document::undo, "Nothing to undo."),
+        Action::Redo => travel(state, Document::redo, "Nothing to redo."),
+        Action::Reset => reset(state),
+        _ => return false,
+    }
+    true
+}
+
+fn travel(state: &mut State, go: fn(&mut Document) -> bool, nothing: &str) {
+    if go(&mut state.work.document) {
+        spheres::mend_selection(state);
+    } else {
+        state.say(nothing);
+    }
+}
+
+fn reset(state: &mut State) {
+    let opened = Box::new(state.work.opened.clone());
+    if state.apply(Change::Scene(opened)) {
+        state.say("The scene is as it was opened. u takes this back.");
+    }
+    spheres::mend_selection(state);
+}

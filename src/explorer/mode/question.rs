@@ -1,0 +1,64 @@
+//! A question that has to be answered before something is lost.
+
+use ratatui::layout::{Position, Rect};
+
+use crate::explorer::action::Action;
+use crate::explorer::command::Command;
+use crate::explorer::dialog::Confirmation;
+use crate::explorer::draw::pen::Pen;
+use crate::explorer::draw::theme::Theme;
+use crate::explorer::key::Key;
+use crate::explorer::mode::{After, Overlay};
+use crate::explorer::state::State;
+
+/// A question that waits for its answer.
+#[derive(Debug, PartialEq)]
+pub(crate) struct Asking {
+    pub(crate) question: Confirmation,
+}
+
+impl Overlay for Asking {
+    fn press(&mut self, key: Key, state: &mut State) -> After {
+        match &self.question {
+            Confirmation::Quit if key.is("s") => After::Do(Command::SaveAndQuit),
+            // Another key than the one that asked: it may be held down.
+            Confirmation::Quit if key.is("D") => After::Do(Command::QuitNow),
+            Confirmation::Open(name) if key.is("o") => After::Do(Command::OpenNow(name.clone())),
+            Confirmation::Recover { path, .. } if key.is("o") => {
+                After::Do(Command::Recover(path.clone()))
+            }
+            Confirmation::Recover { path, .. } if key.is("D") => {
+                After::Do(Command::Discard(path.clone()))
+            }
+            Confirmation::Recover { .. } => {
+                state.say(
+                    "The unsaved work stays where it is; it is offered again at the next start.",
+                );
+                if key.is("esc") {
+                    After::Close
+                } else {
+                    After::Pass(key)
+                }
+            }
+            Confirmation::Tour if key.is("t") => After::Do(Command::TourNow),
+            Confirmation::Tour if key.is("s") => After::Do(Command::Do(Action::Save)),
+            Confirmation::Overwrite { path, .. } if key.is("o") => {
+                After::Do(Command::Overwrite(path.clone()))
+            }
+            _ if key.is("esc") || key.is("n") => {
+                state.say("Nothing was changed.");
+                After::Close
+            }
+            _ => After::Stay,
+        }
+    }
+
+    fn has_footer(&self) -> bool {
+        true
+    }
+
+    fn draw_footer(&self, _: &State, pen: &mut Pen<'_>, area: Rect) -> Option<Position> {
+        pen.message(area, &self.question.text(), Theme::strong());
+        None
+    }
+}

@@ -1,0 +1,276 @@
+//! What all parts of the explorer share: the scene, the viewpoint, the picture made from them, and
+//! what is to be said.
+//!
+//! A part changes it by what it does to a `&mut State`; what only one part needs is that part's own.
+
+use crate::explain::{Digits, Reading, Step, Subject};
+use crate::explorer::arrival::Arrival;
+use crate::explorer::dialog::{Confirmation, Dialog, Message};
+use crate::explorer::draw::layout::Layout;
+use crate::explorer::draw::picture::Picture;
+use crate::explorer::edit::document::{Change, Document};
+use crate::explorer::edit::motion::usual_step;
+use crate::explorer::files::place::FilePlace;
+use crate::explorer::files::rescue::Rescue;
+use crate::explorer::files::workplace::Workplace;
+use crate::explorer::options::{Options, Request};
+use crate::explorer::panel::Panel;
+use crate::explorer::viewpoint::Viewpoint;
+use crate::method::Method;
+use crate::render::View;
+use crate::scene::{Scene, Size};
+
+/// What all parts of the explorer share.
+#[derive(Debug)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is a choice of its own, which a key of its own turns"
+)]
+pub(crate) struct State {
+    pub(crate) work: Work,
+    pub(crate) at: Viewpoint,
+    /// The person's own work, while the tour is open.
+    pub(crate) aside: Option<Box<Aside>>,
+    pub(crate) options: Options,
+    /// The probe of the scene that was visited last.
+    pub(crate) probe: Option<usize>,
+    pub(crate) full_digits: bool,
+    /// Lines of the panel that are scrolled away.
+    pub(crate) scroll: usize,
+    /// Where a panel has no room beside the picture: the numbers take the picture's place.
+    pub(crate) numbers_alone: bool,
+    /// The name of the step that the person chose, and where it, or what replaces it where there is
+    /// no such step, was last shown.
+    pub(crate) kept_step: Option<(String, usize)>,
+    pub(crate) prediction: Prediction,
+    /// One step is shown large, in the place of picture and panels.
+    pub(crate) board: bool,
+    pub(crate) message: Option<Message>,
+    /// What is to open over the screen.
+    pub(crate) dialog: Option<Dialog>,
+    /// Columns and rows of the screen.
+    pub(crate) screen: (u16, u16),
+    /// Where its parts are; none where it is too small, or before the first preparation.
+    pub(crate) layout: Option<Layout>,
+    pub(crate) picture: Picture,
+    pub(crate) mouse: bool,
+    pub(crate) request: Option<Request>,
+    pub(crate) arrival: Arrival,
+    /// The files that can be reached, and where unsaved work is kept.
+    pub(crate) workplace: Workplace,
+    /// The work that is kept in case the terminal is lost.
+    pub(crate) rescue: Option<Rescue>,
+    /// The exit status, once the person has left.
+    pub(crate) ended: Option<u8>,
+    /// Whether the person asked to save and quit: a question that this led to leads on to the end.
+    pub(crate) quits_once_saved: bool,
+    /// The bytes of the last frame, and of the largest one.
+    pub(crate) sent: Option<[u64; 2]>,
+    /// Whether the picture is drawn with few shades, since its bytes go out slowly.
+    pub(crate) coarse: bool,
+}
+
+/// A scene that is worked on: with its history, its file, and the length of a step in it.
+#[derive(Debug)]
+pub(crate) struct Work {
+    pub(crate) document: Document,
+    /// The scene as it was opened: what reset and home go back to.
+    pub(crate) opened: Scene,
+    pub(crate) place: FilePlace,
+    /// By how much a key moves a sphere.
+    pub(crate) stride: f32,
+    pub(crate) usual_stride: f32,
+}
+
+impl Work {
+    pub(crate) fn of(scene: Scene, place: FilePlace) -> Self {
+        let stride = usual_step(&scene);
+        Self {
+            opened: scene.clone(),
+            document: Document::new(scene),
+            place,
+            stride,
+            usual_stride: stride,
+        }
+    }
+}
+
+/// A person's own work and where they were in it, put aside whole.
+#[derive(Debug)]
+pub(crate) struct Aside {
+    pub(crate) work: Work,
+    pub(crate) at: Viewpoint,
+    pub(crate) probe: Option<usize>,
+}
+
+/// Predict, then reveal: whether results are kept back, and how the guesses went. Nothing of it is
+/// stored anywhere.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) struct Prediction {
+    pub(crate) on: bool,
+    /// The result of the step shown has been revealed.
+    pub(crate) revealed: bool,
+    pub(crate) right: u32,
+    pub(crate) asked: u32,
+}
+
+impl State {
+    pub(crate) fn new(work: Work, options: Options) -> Self {
+        let scene = work.document.scene();
+        let picture = Picture::of(scene);
+        let at = Viewpoint::of(scene, picture.rays.size);
+        Self {
+            work,
+            at,
+            aside: None,
+            options,
+            probe: None,
+            full_digits: false,
+            scroll: 0,
+            numbers_alone: false,
+            kept_step: None,
+            prediction: Prediction::default(),
+            board: false,
+            message: None,
+            dialog: None,
+            screen: (0, 0),
+            layout: None,
+            picture,
+            mouse: false,
+            request: None,
+            arrival: Arrival::default(),
+            workplace: Workplace::default(),
+            rescue: None,
+            ended: None,
+            quits_once_saved: false,
+            sent: None,
+            coarse: false,
+        }
+    }
+
+    /// The scene as it is now.
+    pub(crate) const fn scene(&self) -> &Scene {
+        self.work.document.scene()
+    }
+
+    /// What the ray under the cursor found.
+    pub(crate) const fn reading(&self) -> Option<&Reading> {
+        self.picture.reading.as_ref()
+    }
+
+    /// The sphere that the reading is of.
+    pub(crate) fn subject(&self) -> Option<&Subject> {
+        self.reading()?.subject.as_ref()
+    }
+
+    /// The size of the picture, in pixels.
+    pub(crate) const fn size(&self) -> Size {
+        self.picture.rays.size
+    }
+
+    pub(crate) fn digits(&self) -> Digits {
+        if self.full_digits {
+            Digits::Full
+        } else {
+            Digits::Significant(6)
+        }
+    }
+
+    /// Applies a change that can be undone; false if it changes nothing.
+    pub(crate) fn apply(&mut self, change: Change) -> bool {
+        self.work.document.apply(change)
+    }
+
+    pub(crate) fn say(&mut self, text: impl Into<String>) {
+        self.message = Some(Message {
+            text: text.into(),
+            warning: false,
+        });
+    }
+
+    pub(crate) fn warn(&mut self, text: impl Into<String>) {
+        self.message = Some(Message {
+            text: text.into(),
+            warning: true,
+        });
+    }
+
+    pub(crate) fn open(&mut self, dialog: Dialog) {
+        self.dialog = Some(dialog);
+    }
+
+    pub(crate) fn ask(&mut self, question: Confirmation) {
+        self.open(Dialog::Ask(question));
+    }
+
+    /// Whether there are changes that were not saved, also behind the tour.
+    pub(crate) fn is_changed(&self) -> bool {
+        self.work.document.is_changed() || self.hides_changes()
+    }
+
+    /// Whether the work that waits behind the tour has changes that were not saved.
+    pub(crate) fn hides_changes(&self) -> bool {
+        let aside = self.aside.as_ref();
+        aside.is_some_and(|aside| aside.work.document.is_changed())
+    }
+
+    /// Whether there are changes that somebody would miss: all but another look at a built-in scene,
+    /// which is there for looking at.
+    pub(crate) fn is_worth_saving(&self) -> bool {
+        let Work {
+            document,
+            opened,
+            place,
+            ..
+        } = &self.work;
+        let built_in = matches!(place, FilePlace::Builtin(_)) && self.aside.is_none();
+        let only_looked = built_in && document.ground().bodies == opened.bodies;
+        self.is_changed() && !only_looked
+    }
+
+    // The derivation.
+
+    /// The step that is shown.
+    pub(crate) fn current_step(&self) -> Option<&Step> {
+        let last = self.picture.steps.len().checked_sub(1)?;
+        self.picture.steps.get(self.at.step.min(last))
+    }
+
+    /// Whether the result of the step shown is kept back.
+    pub(crate) const fn is_hidden(&self) -> bool {
+        (self.prediction.on || self.board) && !self.prediction.revealed
+    }
+
+    /// Whether results are to be predicted, so that nothing else may show them.
+    pub(crate) fn is_predicting(&self) -> bool {
+        self.prediction.on && !self.picture.steps.is_empty()
+    }
+
+    /// The method that the chosen one is compared with.
+    pub(crate) fn other_method(&self) -> Method {
+        let method = self.at.method;
+        let next = || turn(&Method::ALL, method, 1);
+        self.at
+            .compare
+            .filter(|&m| m != method)
+            .unwrap_or_else(next)
+    }
+
+    /// The view as the style can show it.
+    pub(crate) const fn shown_view(&self) -> View {
+        self.at.view.shown_in(self.at.style)
+    }
+
+    /// Whether the panel that was asked for takes the place of the picture: on a screen where it has
+    /// no other.
+    pub(crate) fn is_picture_covered(&self) -> bool {
+        let no_room = self.layout.is_some_and(|layout| layout.panel.is_empty());
+        no_room && (self.at.panel != Panel::Quadratic || self.numbers_alone)
+    }
+}
+
+/// The value `by` places after `now` in the ring of all.
+pub(crate) fn turn<T: Copy + PartialEq>(all: &[T], now: T, by: usize) -> T {
+    let at = all.iter().position(|&v| v == now).unwrap_or(0);
+    all[(at + by) % all.len()]
+}

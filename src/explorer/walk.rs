@@ -1,0 +1,264 @@
+//! Walking through the derivation of a pixel: steps, predictions, the moving point.
+
+use crate::explain::{Digits, Landmark, Question, Step, landmarks, number};
+use crate::explorer::key::Key;
+use crate::explorer::panel::Panel;
+use crate::explorer::state::{Prediction, State};
+use crate::method::Precision;
+
+/// A step of the moving point, in radii.
+const SCRUB: f64 = 1.0 / 16.0;
+
+/// Steps that methods with half-b do in the place of those with B.
+const HALVES: [[&str; 2]; 4] = [["B", "b"], ["B²", "b²"], ["Δ", "D"], ["√Δ", "√D"]];
+
+/// Whether the picture still tells what is to be predicted: whether something is seen.
+pub(crate) fn is_picture_veiled(state: &State) -> bool {
+    let seen = |step: &Step| step.question == Some(Question::Seen);
+    let last = state.picture.steps.iter().position(seen);
+    state.is_predicting()
+        && last.is_some_and(|last| {
+            state.at.step < last || (state.at.step == last && state.is_hidden())
+        })
+}
+
+/// Opens the steps; with steps open, reveals the answer, else goes on.
+pub(crate) fn next_step(state: &mut State) {
+    let open = state.board || state.at.panel == Panel::Steps;
+    if !open {
+        state.at.panel = Panel::Steps;
+    } else if state.is_hidden() {
+        state.prediction.revealed = true;
+    } else {
+        go_to_step(state, state.at.step + 1);
+    }
+}
+
+pub(crate) fn go_to_step(state: &mut State, at: usize) {
+    let last = state.picture.steps.len().saturating_sub(1);
+    if !state.board && state.at.panel != Panel::Bits {
+        state.at.panel = Panel::Steps;
+    }
+    if at > last && state.at.step == last && at != usize::MAX {
+        state.say("That was the last step. < goes back to the first.");
+    }
+    if state.at.step != at.min(last) {
+        state.prediction.revealed = false;
+    }
+    state.at.step = at.min(last);
+}
+
+/// Keeps the step that the person chose when the derivation becomes another one: the step of
+/// that name, or what another method has in its place, else one that stands as far down.
+pub(crate) fn keep_step(state: &mut State, before: &[Step]) {
+    let chosen = match state.kept_step.take() {
+        Some((name, at)) if at == state.at.step && !before.is_empty() => Some(name),
+        _ => before.get(state.at.step).map(|step| step.name.clone()),
+    };
+    let steps = &state.picture.steps;
+    let place = |name: &str| steps.iter().position(|step| step.name == name);
+    let same = chosen.as_deref().and_then(|name| {
+        let other = HALVES.iter().find_map(|&[whole, half]| match name {
+            _ if name == whole => Some(half),
+            _ if name == half => Some(whole),
+            _ => None,
+        });
+        place(name).or_else(|| place(other?))
+    });
+    let last = steps.len().saturating_sub(1);
+    state.at.step = same.unwrap_or(state.at.step.min(last));
+    state.kept_step = chosen.map(|name| (name, state.at.step));
+}
+
+pub(crate) fn go_to_step_named(state: &mut State, name: &str) {
+    match step_named(state, name) {
+        Ok(at) => go_to_step(state, at),
+        Err(sentence) => state.warn(sentence),
+    }
+}
+
+/// The place of the step of that name or, from 1, of that number.
+pub(crate) fn step_named(state: &State, name: &str) -> Result<usize, String> {
+    let steps = &state.picture.steps;
+    let by_name = steps.iter().position(|s| s.name == name);
+    let by_number = || name.parse().ok().and_then(|n: usize| n.checked_sub(1));
+    let count = steps.len();
+    by_name
+        .or_else(by_number)
+        .filter(|&at| at < count)
+        .ok_or_else(|| format!("step: found “{name}”, expected a step's name or 1 to {count}"))
+}
+
+pub(crate) fn toggle_prediction(state: &mut State) {
+    let on = !state.prediction.on;
+    state.prediction = Prediction {
+        on,
+        ..Prediction::default()
+    };
+    if on {
+        state.at.panel = Panel::Steps;
+        state.say("Predict first: each result, the other panels and the picture wait for you.");
+    } else {
+        state.say("Results are shown again.");
+    }
+}
+
+/// The question that waits for an answer.
+pub(crate) fn pending_question(state: &State) -> Option<Question> {
+    let shown = state.board || (state.prediction.on && state.at.panel == Panel::Steps);
+    state
+        .current_step()
+        .filter(|_| shown && state.is_hidden())?
+        .question
+}
+
+/// Takes a key as the answer to the question on the screen; false if it is none.
+pub(crate) fn answer_prediction(state: &mut State, key: Key) -> bool {
+    let Some(question) = pending_question(state) else {
+        return false;
+    };
+    let answers = question.answers();
+    let given = key.typed();
+    let Some(at) = answers.iter().position(|(c, _)| Some(*c) == given) else {
+        return false;
+    };
+    let subject = state.subject();
+    let right = subject.and_then(|s| question.right(s));
+    state.prediction.revealed = true;
+    state.prediction.asked += 1;
+    if right == Some(at) {
+        state.prediction.right += 1;
+        let Prediction { right, asked, .. } = state.prediction;
+        state.say(format!(
+            "Yes, {}. {right} of {asked} foreseen.",
+            answers[at].1
+        ));
+    } else {
+        let said = right.map_or("there is no answer", |at| answers[at].1);
+        state.say(format!(
+            "It is {said}. Look at the numbers of this step: why?"
+        ));
+    }
+    true
+}
+
+/// t of the moving point: where the person put it, else where something is seen, else where
+/// the ray comes nearest to the centre.
+pub(crate) fn moving_t(state: &State) -> f64 {
+    let subject = state.subject();
+    state.at.t.unwrap_or_else(|| {
+        subject.map_or(0.0, |s| match s.sight {
+            Some(sight) => sight.t.into(),
+            None => -s.coefficients.b / (2.0 * s.coefficients.a),
+        })
+    })
+}
+
+/// Puts the moving point on the next place of the line that has a name, or the one before.
+pub(crate) fn go_to_landmark(state: &mut State, forward: bool) {
+    let Some((ray, sphere)) = state.reading().and_then(|r| {
+        let subject = r.subject.as_ref()?;
+        Some((r.ray, subject.sphere))
+    }) else {
+        return state.say("There is no sphere to go along a ray to.");
+    };
+    let places = landmarks(&ray, &sphere);
+    let Some(at) = neighbour(&places, moving_t(state), forward) else {
+        return;
+    };
+    let Landmark { t, what } = &places[at];
+    state.at.t = Some(*t);
+    let shown = number(*t, Precision::Binary64, Digits::Significant(6));
+    let count = places.len();
+    state.say(format!("{} of {count}: t = {shown}, {what}.", at + 1));
+    show_moving_point(state);
+}
+
+/// Where the moving point is seen.
+fn show_moving_point(state: &mut State) {
+    if state.at.panel != Panel::Curve {
+        state.at.panel = Panel::Slice;
+    }
+}
+
+pub(crate) fn scrub(state: &mut State, steps: f64) {
+    let subject = state.subject();
+    let Some(subject) = subject else {
+        return state.say("There is no sphere to go along a ray to.");
+    };
+    let c = subject.coefficients;
+    let closest = (-c.b / (2.0 * c.a)).abs();
+    // Relative to the sphere where it is far away, so that its points can be told apart.
+    let radius = f64::from(subject.sphere.radius) / c.a.sqrt();
+    let length = if radius > 0.0 { radius } else { closest };
+    let t = moving_t(state) + steps * SCRUB * length;
+    if t.is_finite() {
+        state.at.t = Some(t);
+    }
+    show_moving_point(state);
+}
+
+/// The place after t, or before it, in the ring of all.
+///
+/// A root as the method has it, rounded to binary32, counts as the root.
+fn neighbour(places: &[Landmark], t: f64, forward: bool) -> Option<usize> {
+    let last = places.len().checked_sub(1)?;
+    let here = places.iter().position(|place| place.t == t).or_else(|| {
+        let alike = |place: &Landmark| (place.t as f32).to_bits() == (t as f32).to_bits();
+        places.iter().position(alike)
+    });
+    let next = match (here, forward) {
+        (Some(here), true) => here + 1,
+        (None, true) => places.iter().filter(|place| place.t < t).count(),
+        (Some(here), false) => return Some(here.checked_sub(1).unwrap_or(last)),
+        (None, false) => {
+            let before = places.iter().filter(|place| place.t < t).count();
+            return Some(before.checked_sub(1).unwrap_or(last));
+        }
+    };
+    Some(if next > last { 0 } else { next })
+}
+
+/// Goes to the step that was wanted; the panel stays as it is.
+pub(crate) fn arrive_at_step(state: &mut State) {
+    let Some(name) = state.arrival.step.take() else {
+        return;
+    };
+    match step_named(state, &name) {
+        Ok(at) => state.at.step = at,
+        Err(sentence) => state.warn(sentence),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn landmarks_are_a_ring_that_a_rounded_root_belongs_to() {
+        let place = |t: f64| Landmark {
+            t,
+            what: String::new(),
+        };
+        let places = [0.0, 0.1, 0.5, 0.9].map(place);
+        let go = |t, forward| neighbour(&places, t, forward);
+        let rounded = f64::from(0.1_f32);
+        for (t, next, before) in [
+            (-1.0, 0, 3),
+            (0.0, 1, 3),
+            (0.05, 1, 0),
+            (0.1, 2, 0),
+            (rounded, 2, 0),
+            (0.6, 3, 2),
+            (0.9, 0, 2),
+            (7.0, 0, 3),
+        ] {
+            assert_eq!(
+                [go(t, true), go(t, false)],
+                [Some(next), Some(before)],
+                "{t}"
+            );
+        }
+        assert_eq!(neighbour(&[], 0.0, true), None);
+    }
+}
