@@ -327,7 +327,7 @@ const ABSURD: &[(&str, &str)] = &[
     ("tutorial --plain --shown 7", "--shown 7: expected a sphere"),
     (
         "tutorial --plain --set radius=nan",
-        "--set radius=nan: radius is",
+        "radius is “nan”: expected a finite number",
     ),
     ("tutorial --plain --set radius=-1", "--set: radius is -1"),
     (

@@ -399,7 +399,9 @@ fn a_typed_number_is_held_to_what_a_scene_file_may_say() {
         .commands("set up.z 1e39")
         .shows("expected a number within");
     person.commands("set look_at.z 0").shows("look_at");
-    person.commands("set nonsense 1").shows("no key");
+    person
+        .commands("set nonsense 1")
+        .shows("expected one of center.x");
 }
 
 #[test]

@@ -112,6 +112,17 @@ pub(crate) fn pending_question(state: &State) -> Option<Question> {
         .question
 }
 
+/// Whether a key could be the answer to some question, if one is on the screen.
+pub(crate) fn could_answer(state: &State, key: Key) -> bool {
+    let answers = |question: &Question| {
+        question
+            .answers()
+            .iter()
+            .any(|(c, _)| Some(*c) == key.typed())
+    };
+    (state.prediction.on || state.board) && Question::ALL.iter().any(answers)
+}
+
 /// Takes a key as the answer to the question on the screen; false if it is none.
 pub(crate) fn answer_prediction(state: &mut State, key: Key) -> bool {
     let Some(question) = pending_question(state) else {

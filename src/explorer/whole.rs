@@ -148,10 +148,14 @@ impl Explorer {
 
     /// Brings picture and panels up to date for a screen of this many columns and rows.
     pub fn prepare(&mut self, cols: u16, rows: u16) {
+        self.prepare_picture(cols, rows);
+        self.panels.refresh(&self.state);
+    }
+
+    fn prepare_picture(&mut self, cols: u16, rows: u16) {
         self.state.screen = (cols, rows);
         self.state.layout = self.layout(Rect::new(0, 0, cols, rows));
         prepare::prepare(&mut self.state);
-        self.panels.refresh(&self.state);
     }
 
     /// Draws everything; where the terminal's own cursor belongs comes back.
@@ -287,11 +291,11 @@ impl Explorer {
     /// A key while nothing is open: an answer to a prediction, or an action.
     fn press_plainly(&mut self, key: Key) {
         self.state.quits_once_saved = false;
-        if self.state.prediction.on || self.state.board {
+        if walk::could_answer(&self.state, key) {
             self.refresh();
-        }
-        if walk::answer_prediction(&mut self.state, key) {
-            return;
+            if walk::answer_prediction(&mut self.state, key) {
+                return;
+            }
         }
         if let Some(action) = Action::bound_to(key) {
             self.act(action);
@@ -462,11 +466,12 @@ impl Explorer {
 // Keeping picture and layout up to date.
 impl Explorer {
     /// Brings picture and reading up to date between two drawings, for what acts on them: several
-    /// events may come before the next drawing, and the outcome must not depend on how many.
+    /// events may come before the next drawing, and the outcome must not depend on how many. What
+    /// panels show waits for the drawing.
     fn refresh(&mut self) {
         let (cols, rows) = self.state.screen;
         if (cols, rows) != (0, 0) {
-            self.prepare(cols, rows);
+            self.prepare_picture(cols, rows);
         }
     }
 

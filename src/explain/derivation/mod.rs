@@ -93,6 +93,9 @@ pub enum Question {
 }
 
 impl Question {
+    /// All questions.
+    pub const ALL: [Self; 3] = [Self::Sign, Self::Count, Self::Seen];
+
     /// The question as it is asked.
     pub const fn text(self) -> &'static str {
         match self {

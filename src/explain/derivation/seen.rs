@@ -75,7 +75,7 @@ fn seen_step(subject: &Subject) -> Step {
         ),
         None => (
             "no root: nothing of this sphere is seen".into(),
-            "if !self.class.meets() {",
+            "place: class.meets().then_some(place),",
         ),
     };
     let numbers = match subject.solution.class {

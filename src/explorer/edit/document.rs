@@ -18,6 +18,69 @@ pub enum Change {
     Remove(usize),
     /// The whole scene becomes this one.
     Scene(Box<Scene>),
+    /// The scene becomes one that shares spheres with it.
+    Difference(Box<Difference>),
+}
+
+/// What makes another scene of a scene, without the spheres that they share.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Difference {
+    /// All of the scene but its spheres.
+    rest: Scene,
+    /// The spheres that are others, by number.
+    others: Vec<(usize, Body)>,
+    /// How many spheres stay in front, and those that come after.
+    kept: usize,
+    tail: Vec<Body>,
+}
+
+impl Difference {
+    /// What makes `scene` of the scene that it becomes `by` then.
+    fn between(mut scene: Scene, by: &Scene) -> Self {
+        let kept = scene.bodies.len().min(by.bodies.len());
+        let tail = scene.bodies.split_off(kept);
+        let bodies = std::mem::take(&mut scene.bodies).into_iter().enumerate();
+        let others = bodies
+            .filter(|(at, body)| by.bodies[*at] != *body)
+            .collect();
+        Self {
+            rest: scene,
+            others,
+            kept,
+            tail,
+        }
+    }
+
+    /// The scene that it makes of this one.
+    fn apply(self, mut bodies: Vec<Body>) -> Scene {
+        bodies.truncate(self.kept);
+        for (at, body) in self.others {
+            bodies[at] = body;
+        }
+        bodies.extend(self.tail);
+        Scene {
+            bodies,
+            ..self.rest
+        }
+    }
+}
+
+/// How a scene that goes is kept.
+#[derive(Debug, Clone, Copy)]
+enum Inverse {
+    /// As what differs from the scene that comes.
+    Small,
+    /// Whole: a dial is turned on it.
+    Whole,
+}
+
+impl Inverse {
+    fn of(self, before: Scene, after: &Scene) -> Change {
+        match self {
+            Self::Small => Change::Difference(Box::new(Difference::between(before, after))),
+            Self::Whole => Change::Scene(Box::new(before)),
+        }
+    }
 }
 
 /// A scene with its past and its undone future.
@@ -124,8 +187,12 @@ impl Document {
 
     /// Applies a change that [`Document::undo`] takes back; false if it changes nothing.
     pub fn apply(&mut self, change: Change) -> bool {
+        self.apply_keeping(change, Inverse::Small)
+    }
+
+    fn apply_keeping(&mut self, change: Change, inverse: Inverse) -> bool {
         let before = self.state;
-        let Some(inverse) = self.perform(change) else {
+        let Some(inverse) = self.perform(change, inverse) else {
             return false;
         };
         if self.saved_at.is_some_and(|at| at > self.past.len()) {
@@ -147,7 +214,7 @@ impl Document {
     pub fn turn_to(&mut self, turn: Turn, scene: Scene) -> bool {
         self.turn_back();
         let ground = self.state.ground;
-        if !self.apply(Change::Scene(Box::new(scene))) {
+        if !self.apply_keeping(Change::Scene(Box::new(scene)), Inverse::Whole) {
             return false;
         }
         self.state = DialState {
@@ -185,7 +252,11 @@ impl Document {
     /// Goes where an entry leads; the entry that leads back.
     fn go(&mut self, HistoryEntry { change, state }: HistoryEntry) -> Option<HistoryEntry> {
         let before = std::mem::replace(&mut self.state, state);
-        let change = self.perform(change)?;
+        let inverse = match self.state.turn {
+            Some(_) => Inverse::Whole,
+            None => Inverse::Small,
+        };
+        let change = self.perform(change, inverse)?;
         Some(HistoryEntry {
             change,
             state: before,
@@ -193,7 +264,7 @@ impl Document {
     }
 
     /// Performs a change and returns the one that takes it back; none if nothing changes.
-    fn perform(&mut self, change: Change) -> Option<Change> {
+    fn perform(&mut self, change: Change, inverse: Inverse) -> Option<Change> {
         let bodies = &mut self.scene.bodies;
         let inverse = match change {
             Change::Camera(camera) => {
@@ -224,7 +295,11 @@ impl Document {
                 if *scene == self.scene {
                     return None;
                 }
-                Change::Scene(Box::new(std::mem::replace(&mut self.scene, *scene)))
+                inverse.of(std::mem::replace(&mut self.scene, *scene), &self.scene)
+            }
+            Change::Difference(difference) => {
+                let scene = difference.apply(self.scene.bodies.clone());
+                inverse.of(std::mem::replace(&mut self.scene, scene), &self.scene)
             }
         };
         self.version = next_version();
@@ -306,5 +381,34 @@ mod tests {
         assert_eq!(document.ground_version(), first);
         moved(&mut document);
         assert!(![first, second].contains(&document.ground_version()));
+    }
+
+    #[test]
+    fn a_scene_that_comes_back_costs_what_differs() {
+        let whole = Builtin::by_name("crowd").unwrap().scene();
+        let mut document = Document::new(whole.clone());
+        for _ in 0..3 {
+            assert!(moved(&mut document));
+            assert!(document.apply(Change::Scene(Box::new(whole.clone()))));
+        }
+        let mut fewer = whole.clone();
+        fewer.bodies.truncate(7);
+        assert!(document.apply(Change::Scene(Box::new(fewer.clone()))));
+        let spheres = |entry: &HistoryEntry| match &entry.change {
+            Change::Difference(difference) => difference.others.len() + difference.tail.len(),
+            Change::Scene(scene) => scene.bodies.len(),
+            _ => 1,
+        };
+        let kept: Vec<usize> = document.past.iter().map(spheres).collect();
+        let all = whole.bodies.len();
+        assert_eq!(kept, [1, 1, 1, 1, 1, 1, all - 7]);
+        for _ in 0..2 {
+            assert!(document.undo() && *document.scene() == whole);
+            assert!(document.redo() && *document.scene() == fewer);
+        }
+        while document.undo() {}
+        assert_eq!(*document.scene(), whole);
+        while document.redo() {}
+        assert_eq!(*document.scene(), fewer);
     }
 }

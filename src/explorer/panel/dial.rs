@@ -90,6 +90,7 @@ impl Component for DialPanel {
     }
 
     fn act(&mut self, action: Action, state: &mut State) -> bool {
+        self.follow(state);
         match action {
             Action::NextDial => self.next_dial(state),
             Action::TurnOn => self.turn_on(state),
@@ -101,10 +102,7 @@ impl Component for DialPanel {
 
     /// Finds out what the picture on the screen gets wrong, if it is marked.
     fn refresh(&mut self, state: &State) {
-        // After undoing and redoing, the dial that is turned is the one that is chosen.
-        if let Some(turn) = state.work.document.turn() {
-            self.dial = turn.dial;
-        }
+        self.follow(state);
         if !marks_wrong(state) {
             self.errors.clear();
             self.errors_of = None;
@@ -125,6 +123,13 @@ impl Component for DialPanel {
 }
 
 impl DialPanel {
+    /// After undoing and redoing, the dial that is turned is the one that is chosen.
+    fn follow(&mut self, state: &State) {
+        if let Some(turn) = state.work.document.turn() {
+            self.dial = turn.dial;
+        }
+    }
+
     /// Shows the dial; when it is shown already, chooses the next one.
     fn next_dial(&mut self, state: &mut State) {
         if state.at.panel != Panel::Dial {
@@ -369,4 +374,33 @@ fn in_words(errors: &PictureErrors) -> String {
         errors.pixels,
         kinds.join(", ")
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
+
+    use crate::explorer::{Explorer, Options};
+    use crate::scene::Scene;
+
+    #[test]
+    fn keys_in_a_burst_leave_what_is_wrong_to_the_drawing() {
+        let (scene, source) = Scene::open("far").unwrap();
+        let mut explorer = Explorer::new(scene, &source, Options::default());
+        let press = |keys: &str, explorer: &mut Explorer| {
+            for c in keys.chars() {
+                let key = KeyEvent::new(KeyCode::Char(c), KeyModifiers::NONE);
+                explorer.update(&Event::Key(key));
+            }
+        };
+        explorer.prepare(80, 24);
+        press("9P9\\", &mut explorer);
+        explorer.prepare(80, 24);
+        let found = explorer.panels.dial.errors_of;
+        assert!(found.is_some());
+        press(&"dl.,".repeat(13), &mut explorer);
+        assert_eq!(explorer.panels.dial.errors_of, found);
+        explorer.prepare(80, 24);
+        assert_ne!(explorer.panels.dial.errors_of, found);
+    }
 }
