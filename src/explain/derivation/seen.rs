@@ -63,15 +63,15 @@ fn seen_step(subject: &Subject) -> Step {
     let (result, code) = match subject.solution.place() {
         Some(Place::Hit) => (
             format!("0 < {near}, a hit: the near point is seen, t = {near}"),
-            "Place::Hit => Some(self.near),",
+            "Self::Hit => Some(Which::Near),",
         ),
         Some(Place::Inside) => (
             format!("{near} ≤ 0 < {far}, inside: the far point is seen, t = {far}"),
-            "Place::Inside => Some(self.far),",
+            "Self::Inside => Some(Which::Far),",
         ),
         Some(Place::Behind) => (
             format!("{far} ≤ 0, behind: the line meets the sphere, the ray does not"),
-            "Place::Behind => None,",
+            "Self::Behind => None,",
         ),
         None => (
             "no root: nothing of this sphere is seen".into(),

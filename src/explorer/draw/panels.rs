@@ -6,7 +6,7 @@ use crate::explain::{self, Line};
 use crate::explorer::draw::layout::text_room;
 use crate::explorer::draw::pen::Pen;
 use crate::explorer::panel::Panel;
-use crate::explorer::panel::component::Panels;
+use crate::explorer::panel::all::Panels;
 use crate::explorer::state::State;
 
 /// The panel in the place of the picture.

@@ -9,9 +9,9 @@ use crate::explorer::draw::layout::{LEAST, Layout};
 use crate::explorer::draw::pen::Pen;
 use crate::explorer::draw::theme::Theme;
 use crate::explorer::draw::{panels, view};
-use crate::explorer::mode::{ModeArea, Overlay};
+use crate::explorer::mode::overlay::{ModeArea, Overlay};
+use crate::explorer::panel::all::Panels;
 use crate::explorer::panel::board;
-use crate::explorer::panel::component::Panels;
 use crate::explorer::state::State;
 use crate::explorer::tour::Tour;
 

@@ -14,7 +14,7 @@ use crate::explorer::draw::layout::Layout;
 use crate::explorer::draw::pen::Pen;
 use crate::explorer::draw::theme::Theme;
 use crate::explorer::key::Key;
-use crate::explorer::mode::{After, ModeArea, Overlay};
+use crate::explorer::mode::overlay::{After, ModeArea, Overlay};
 use crate::explorer::options::Request;
 use crate::explorer::state::State;
 use crate::lab::{Case, CaseForm, HEADER};

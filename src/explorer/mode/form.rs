@@ -11,7 +11,7 @@ use crate::explorer::draw::theme::Theme;
 use crate::explorer::edit::field::{Field, parse_number};
 use crate::explorer::key::Key;
 use crate::explorer::mode::line::TypedLine;
-use crate::explorer::mode::{After, ModeArea, Overlay};
+use crate::explorer::mode::overlay::{After, ModeArea, Overlay};
 use crate::explorer::state::State;
 use crate::geometry::Decimal;
 

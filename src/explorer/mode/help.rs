@@ -9,7 +9,7 @@ use crate::explorer::draw::layout::{self, Layout};
 use crate::explorer::draw::pen::Pen;
 use crate::explorer::draw::theme::Theme;
 use crate::explorer::key::Key;
-use crate::explorer::mode::{After, ModeArea, Overlay};
+use crate::explorer::mode::overlay::{After, ModeArea, Overlay};
 use crate::explorer::options::Options;
 use crate::explorer::state::State;
 

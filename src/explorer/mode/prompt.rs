@@ -11,7 +11,7 @@ use crate::explorer::draw::theme::Theme;
 use crate::explorer::files::workplace::Workplace;
 use crate::explorer::key::Key;
 use crate::explorer::mode::line::TypedLine;
-use crate::explorer::mode::{After, Overlay};
+use crate::explorer::mode::overlay::{After, Overlay};
 use crate::explorer::state::State;
 
 /// A line being typed, and what for.

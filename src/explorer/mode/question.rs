@@ -8,7 +8,7 @@ use crate::explorer::dialog::Confirmation;
 use crate::explorer::draw::pen::Pen;
 use crate::explorer::draw::theme::Theme;
 use crate::explorer::key::Key;
-use crate::explorer::mode::{After, Overlay};
+use crate::explorer::mode::overlay::{After, Overlay};
 use crate::explorer::state::State;
 
 /// A question that waits for its answer.

@@ -3,6 +3,7 @@
 //! A panel is a line of the list below and a file, which owns its state, its actions, its lines and
 //! its foot.
 
+pub(crate) mod all;
 pub(crate) mod bits;
 pub(crate) mod board;
 pub(crate) mod compare;
