@@ -21,7 +21,7 @@ use crate::scene::{Body, Scene};
 
 pub use compare::{comparison, measured_bits};
 pub use derivation::{Drawn, Question, Step, derivation};
-pub use figure::{DialSetting, Float, Ink, Landmark, bits, curve, landmarks, slice, turning, work};
+pub use figure::{Float, Ink, Landmark, bits, curve, landmarks, slice, turning, work};
 pub use number::{Digits, number, vector};
 pub use panel::{Line, Role, Span, fit, lines, plain_text};
 pub use plan::{PlanLine, plan_lines, plan_panel, plan_sentence};

@@ -5,6 +5,7 @@
 pub mod bench;
 mod bench_lock;
 mod case;
+pub mod chart;
 pub mod dials;
 mod errors;
 pub mod families;

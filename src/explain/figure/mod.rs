@@ -27,5 +27,5 @@ pub use canvas::Ink;
 pub use curve::curve;
 pub use landmark::{Landmark, landmarks};
 pub use slice::slice;
-pub use turning::{DialSetting, turning};
+pub use turning::turning;
 pub use work::work;

@@ -11,18 +11,8 @@
 
 use super::canvas::{Canvas, Dash, Dot, Ink};
 use crate::explain::Line;
+use crate::lab::chart::{BITS, DialPoint, Scale};
 use crate::text::Glyphs;
-
-/// What one setting of a dial does to a picture.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct DialSetting {
-    /// The dial is turned by 2^k.
-    pub k: u32,
-    /// The share of pixels that are wrong, 0 to 1.
-    pub wrong: f64,
-    /// The median of the bits lost, 0 to 24; none where no pixel shows the right sphere.
-    pub bits: Option<f64>,
-}
 
 /// The lowest figure that says more than words.
 const LEAST: (usize, usize) = (24, 6);
@@ -32,7 +22,7 @@ const SIDES: (usize, usize) = (4, 3);
 /// The share of wrong pixels and the bits lost over the settings that were tried, in `cols` × `rows`
 /// characters; nothing where that is too little.
 pub fn turning(
-    settings: &[DialSetting],
+    settings: &[DialPoint],
     now: u32,
     most: u32,
     cols: usize,
@@ -46,10 +36,12 @@ pub fn turning(
         canvas: Canvas::new(cols, rows, glyphs),
         cols: cols - SIDES.0 - SIDES.1,
         foot: rows - 2,
-        most: f64::from(most.max(1)),
+        dial: Scale::new(0.0, f64::from(most.max(1))),
     };
     sheet.axes(most);
-    let bits = settings.iter().filter_map(|s| Some((s.k, s.bits? / 24.0)));
+    let bits = settings
+        .iter()
+        .filter_map(|s| Some((s.k, BITS.part(s.bits?))));
     sheet.line(bits, Ink::Behind, Dash::DOTTED);
     sheet.line(
         settings.iter().map(|s| (s.k, s.wrong)),
@@ -62,10 +54,10 @@ pub fn turning(
 
 struct Sheet {
     canvas: Canvas,
-    /// Columns between the numbers at the sides, the row of the axis, the last setting.
+    /// Columns between the numbers at the sides, and the row of the axis.
     cols: usize,
     foot: usize,
-    most: f64,
+    dial: Scale,
 }
 
 impl Sheet {
@@ -73,8 +65,8 @@ impl Sheet {
     fn place(&self, k: f64, share: f64) -> Dot {
         let (width, height) = ((self.cols * 2 - 1) as f64, (self.foot * 4 - 5) as f64);
         (
-            (SIDES.0 * 2) as f64 + 0.5 + k / self.most * width,
-            4.5 + (1.0 - share.clamp(0.0, 1.0)) * height,
+            (SIDES.0 * 2) as f64 + 0.5 + self.dial.part(k) * width,
+            4.5 + (1.0 - share) * height,
         )
     }
 
@@ -118,7 +110,7 @@ impl Sheet {
     }
 
     /// A line through settings that follow each other; a gap in the tries is bridged.
-    fn line(&mut self, points: impl Iterator<Item = (u32, f64)>, ink: Ink, dash: Dash) {
+    fn line(&mut self, points: impl Iterator<Item = (i32, f64)>, ink: Ink, dash: Dash) {
         let mut last: Option<Dot> = None;
         for (k, share) in points {
             let dot = self.place(k.into(), share);
@@ -153,7 +145,7 @@ mod tests {
     #[test]
     fn the_line_rises_where_the_picture_breaks() {
         let settings = [(0, 0.0), (10, 0.0), (11, 1.0), (20, 1.0)];
-        let settings = settings.map(|(k, wrong)| DialSetting {
+        let settings = settings.map(|(k, wrong)| DialPoint {
             k,
             wrong,
             bits: None,
@@ -178,7 +170,7 @@ mod tests {
     proptest! {
         #[test]
         fn any_figure_keeps_to_its_room(
-            tried in prop::collection::btree_map(0_u32..150, (0.0..=1.0, prop::option::of(0.0..=24.0)), 0..20),
+            tried in prop::collection::btree_map(0_i32..150, (0.0..=1.0, prop::option::of(0.0..=24.0)), 0..20),
             now in 0_u32..200,
             most in 0_u32..200,
             cols in 0_usize..120,
@@ -187,7 +179,7 @@ mod tests {
         ) {
             let settings: Vec<_> = tried
                 .into_iter()
-                .map(|(k, (wrong, bits))| DialSetting { k, wrong, bits })
+                .map(|(k, (wrong, bits))| DialPoint { k, wrong, bits })
                 .collect();
             let glyphs = if ascii { Glyphs::Ascii } else { Glyphs::Unicode };
             let lines = turning(&settings, now, most, cols, rows, glyphs);

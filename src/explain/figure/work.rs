@@ -15,6 +15,7 @@ use super::canvas::{Canvas, Dash, Dot, Ink};
 use crate::explain::{Line, Role};
 use crate::lab::bench::text::{brief, settled_by};
 use crate::lab::bench::{MeasuredMethod, MeasuredSet};
+use crate::lab::chart::{Scale, WorkPoint, best, work_points};
 use crate::text::{self, Glyphs};
 
 /// The lowest chart that says more than its table.
@@ -39,13 +40,12 @@ pub fn work(set: &MeasuredSet, cols: usize, rows: usize, glyphs: Glyphs) -> Vec<
 }
 
 /// The letter that stands for a method in the chart: no two begin alike.
-fn letter(row: &MeasuredMethod) -> char {
-    row.method.chars().next().unwrap_or('?')
+fn letter(method: &str) -> char {
+    method.chars().next().unwrap_or('?')
 }
 
 /// Wrong answers in per cent, in few characters, none of them a rounded 0 or 100.
-fn wrong_rate(row: &MeasuredMethod, rays: usize) -> String {
-    let wrong = row.errors.wrong.total();
+fn wrong_rate(wrong: usize, rays: usize) -> String {
     let percent = 100.0 * wrong as f64 / rays.max(1) as f64;
     if wrong == 0 {
         "0".into()
@@ -138,7 +138,7 @@ fn table(set: &MeasuredSet, cols: usize) -> Vec<Line> {
     let mut lines = vec![Line::of(Role::Faint, heading)];
     for row in &set.rows {
         let mark = if row.pareto { '*' } else { ' ' };
-        let rate = wrong_rate(row, set.census.rays);
+        let rate = wrong_rate(row.errors.wrong.total(), set.census.rays);
         let role = if rate == "0" {
             Role::Value
         } else {
@@ -147,7 +147,7 @@ fn table(set: &MeasuredSet, cols: usize) -> Vec<Line> {
         let numbers = all(&|column| (column.cell)(row));
         let line = Line::new(0)
             .with(Role::Plain, mark)
-            .with(Role::Label, letter(row))
+            .with(Role::Label, letter(row.method))
             .with(Role::Plain, format!(" {:9}", row.method))
             .with(role, format!("{rate:>8}"))
             .with(Role::Value, numbers);
@@ -163,67 +163,42 @@ fn stages(set: &MeasuredSet, cols: usize) -> Vec<Line> {
     lines.map(|text| Line::of(Role::Faint, text)).collect()
 }
 
-/// The values at the edges of the chart: log₂ of the error in ulp, log₂ of nanoseconds.
-#[derive(Debug, Clone, Copy)]
-struct Span {
-    x: [f64; 2],
-    y: [f64; 2],
-}
-
-/// log₂ of the least error that is told from none.
-const NO_ERROR: f64 = -3.0;
-
-impl Span {
-    fn of(set: &MeasuredSet) -> Self {
-        let judged = set.rows.iter().filter(|row| row.errors.judged > 0);
-        let reach = |values: &mut dyn Iterator<Item = f64>| {
-            values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], v| {
-                [least.min(v), most.max(v)]
-            })
-        };
-        let [left, right] = reach(&mut judged.map(log_error));
-        let [bottom, top] = reach(&mut set.rows.iter().map(log_time));
-        // One picture looks much like the next if the span changes in steps.
-        let [left, right] = [left.min(-1.0), right].map(f64::ceil);
-        Self {
-            x: [left - 1.0, right.max(9.0)],
-            y: [bottom.floor(), top.ceil().max(bottom.floor() + 2.0)],
-        }
-    }
-}
-
-fn log_error(row: &MeasuredMethod) -> f64 {
-    row.errors.ulp.p99.log2().clamp(NO_ERROR, 120.0)
-}
-
-fn log_time(row: &MeasuredMethod) -> f64 {
-    row.times.throughput.median.log2().clamp(-3.0, 40.0)
+/// The scales of the chart: log₂ of the error in ulp, log₂ of nanoseconds.
+fn scales(points: &[WorkPoint]) -> [Scale; 2] {
+    let reach = |values: &mut dyn Iterator<Item = f64>| {
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], v| {
+            [least.min(v), most.max(v)]
+        })
+    };
+    let [left, right] = reach(&mut points.iter().filter_map(|p| p.error));
+    let [bottom, top] = reach(&mut points.iter().map(|p| p.time));
+    // One picture looks much like the next if the scale changes in steps.
+    let [left, right] = [left.min(-1.0), right].map(f64::ceil);
+    [
+        Scale::new(left - 1.0, right.max(9.0)),
+        Scale::new(bottom.floor(), top.ceil().max(bottom.floor() + 2.0)),
+    ]
 }
 
 /// The columns that the rightmost point leaves for its label.
 const LABEL_ROOM: usize = 6;
 
 /// The sheet of the chart, and where its axes cross.
-struct Chart {
+struct CharacterChart {
     canvas: Canvas,
-    span: Span,
+    x: Scale,
+    y: Scale,
     /// First column and number of columns, last row of the points: row 0 has the title.
     left: usize,
     cols: usize,
     bottom: usize,
 }
 
-impl Chart {
-    /// The dot of values; where there is no error to tell, at the right edge.
-    fn place(&self, row: &MeasuredMethod) -> Dot {
-        let Span { x, y } = self.span;
-        let part = |v: f64, [from, to]: [f64; 2]| ((v - from) / (to - from)).clamp(0.0, 1.0);
-        let across = if row.errors.judged == 0 {
-            1.0
-        } else {
-            part(log_error(row), x)
-        };
-        self.at(across, part(log_time(row), y))
+impl CharacterChart {
+    /// The dot of a method; where there is no error to tell, at the right edge.
+    fn place(&self, point: &WorkPoint) -> Dot {
+        let across = point.error.map_or(1.0, |error| self.x.part(error));
+        self.at(across, self.y.part(point.time))
     }
 
     /// The dot at these parts of the way to the right and up.
@@ -239,34 +214,39 @@ impl Chart {
 
 fn chart(set: &MeasuredSet, cols: usize, rows: usize, glyphs: Glyphs) -> Vec<Line> {
     let left = 5;
-    let mut chart = Chart {
+    let points = work_points(set);
+    let [x, y] = scales(&points);
+    let mut chart = CharacterChart {
         canvas: Canvas::new(cols, rows, glyphs),
-        span: Span::of(set),
+        x,
+        y,
         left,
         cols: cols - left,
         bottom: rows - 3,
     };
     chart.axes(rows);
-    chart.pareto_line(set);
-    chart.points(set);
+    chart.pareto_line(&points);
+    chart.points(&points, set.census.rays);
     chart.canvas.lines()
 }
 
-impl Chart {
+impl CharacterChart {
     fn axes(&mut self, rows: usize) {
-        let (foot, left) = (rows - 2, self.left);
-        let canvas = &mut self.canvas;
-        canvas.write(left - 3, 0, "ns", Ink::Note);
+        self.frame(rows - 2);
+        self.times();
+        self.errors(rows - 2);
+    }
+
+    /// The title, and the lines of the axes.
+    fn frame(&mut self, foot: usize) {
+        let (left, canvas) = (self.left, &mut self.canvas);
         let title = "99 % of the errors, in ulp →";
-        canvas.write(
-            left + self.cols - title.chars().count().min(self.cols),
-            0,
-            title,
-            Ink::Note,
-        );
-        let [line, up, corner, tick_across, tick_up] = match canvas.glyphs() {
-            Glyphs::Unicode => ['─', '│', '└', '┤', '┬'],
-            Glyphs::Ascii => ['-', '|', '+', '+', '+'],
+        let start = left + self.cols - title.chars().count().min(self.cols);
+        canvas.write(left - 3, 0, "ns", Ink::Note);
+        canvas.write(start, 0, title, Ink::Note);
+        let [line, up, corner] = match canvas.glyphs() {
+            Glyphs::Unicode => ['─', '│', '└'],
+            Glyphs::Ascii => ['-', '|', '+'],
         };
         for row in 1..foot {
             canvas.put(left - 1, row, up, Ink::Axis);
@@ -275,31 +255,38 @@ impl Chart {
             canvas.put(col, foot, line, Ink::Axis);
         }
         canvas.put(left - 1, foot, corner, Ink::Axis);
-        let [bottom, top] = self.span.y.map(|y| y as i32);
+    }
+
+    /// The powers of two at the left, a line apart at least.
+    fn times(&mut self) {
+        let tick = self.tick('┤');
         let mut last = usize::MAX;
-        for log in bottom..=top {
-            let part = (f64::from(log) - self.span.y[0]) / (self.span.y[1] - self.span.y[0]);
-            let dot = self.at(0.0, part);
+        for log in self.y.first as i32..=self.y.last as i32 {
+            let dot = self.at(0.0, self.y.part(f64::from(log)));
             let Some((_, row)) = self.canvas.cell_of(dot) else {
                 continue;
             };
-            // Powers of two stand a line apart at least.
             if last.abs_diff(row) < 2 {
                 continue;
             }
             last = row;
             let label = brief_power(log);
-            let at = (left - 1).saturating_sub(label.chars().count());
+            let at = (self.left - 1).saturating_sub(label.chars().count());
             self.canvas.write(at, row, &label, Ink::Note);
-            self.canvas.put(left - 1, row, tick_across, Ink::Axis);
+            self.canvas.put(self.left - 1, row, tick, Ink::Axis);
         }
-        let [first, end] = self.span.x.map(|x| x as i32);
+    }
+
+    /// The powers of two below.
+    fn errors(&mut self, foot: usize) {
+        let tick = self.tick('┬');
+        let [first, end] = [self.x.first, self.x.last].map(|x| x as i32);
         // So many columns at least from one number to the next.
         let fits = |step: &i32| (end - first) * 8 <= step * self.cols as i32;
         let step = [2, 5, 10].into_iter().find(fits).unwrap_or(20);
         for log in (-1..=end).step_by(step as usize) {
-            let part = (f64::from(log) - self.span.x[0]) / (self.span.x[1] - self.span.x[0]);
-            let Some((col, _)) = self.canvas.cell_of(self.at(part, 0.0)) else {
+            let dot = self.at(self.x.part(f64::from(log)), 0.0);
+            let Some((col, _)) = self.canvas.cell_of(dot) else {
                 continue;
             };
             let label = if log == -1 {
@@ -309,41 +296,45 @@ impl Chart {
             };
             let label = self.canvas.glyphs().spell(&label);
             let width = label.chars().count();
-            if col + width <= left + self.cols {
-                self.canvas.put(col, foot, tick_up, Ink::Axis);
+            if col + width <= self.left + self.cols {
+                self.canvas.put(col, foot, tick, Ink::Axis);
                 self.canvas.write(col, foot + 1, &label, Ink::Note);
             }
         }
     }
 
-    /// Through the methods that no other beats, by their error.
-    fn pareto_line(&mut self, set: &MeasuredSet) {
-        let best = set.rows.iter().filter(|r| r.pareto && r.errors.judged > 0);
-        let mut best: Vec<Dot> = best.map(|row| self.place(row)).collect();
-        best.sort_by(|a, b| a.0.total_cmp(&b.0).then(b.1.total_cmp(&a.1)));
-        for pair in best.windows(2) {
+    fn tick(&self, unicode: char) -> char {
+        match self.canvas.glyphs() {
+            Glyphs::Unicode => unicode,
+            Glyphs::Ascii => '+',
+        }
+    }
+
+    fn pareto_line(&mut self, points: &[WorkPoint]) {
+        let line: Vec<Dot> = best(points).iter().map(|p| self.place(p)).collect();
+        for pair in line.windows(2) {
             self.canvas
                 .line(pair[0], pair[1], Ink::Pareto, Dash::DOTTED);
         }
     }
 
     /// Letters first, so that no label hides one; methods in one cell share a label.
-    fn points(&mut self, set: &MeasuredSet) {
-        let mut groups: Vec<((usize, usize), Vec<&MeasuredMethod>)> = Vec::new();
-        for row in &set.rows {
-            let Some(cell) = self.canvas.cell_of(self.place(row)) else {
+    fn points(&mut self, points: &[WorkPoint], rays: usize) {
+        let mut groups: Vec<((usize, usize), Vec<&WorkPoint>)> = Vec::new();
+        for point in points {
+            let Some(cell) = self.canvas.cell_of(self.place(point)) else {
                 continue;
             };
             match groups.iter_mut().find(|(at, _)| *at == cell) {
-                Some((_, group)) => group.push(row),
-                None => groups.push((cell, vec![row])),
+                Some((_, group)) => group.push(point),
+                None => groups.push((cell, vec![point])),
             }
         }
         for ((col, line), group) in &groups {
-            self.canvas.put(*col, *line, letter(group[0]), Ink::Root);
+            let letter = letter(group[0].method);
+            self.canvas.put(*col, *line, letter, Ink::Root);
         }
         for (cell, group) in &groups {
-            let rays = set.census.rays;
             let label = label(group, rays);
             if !self.canvas.label_beside(*cell, &label, Ink::Note) {
                 self.canvas.label(*cell, &label, Ink::Note, true);
@@ -353,10 +344,10 @@ impl Chart {
 }
 
 /// The letters beside the first, and the rates of wrong answers.
-fn label(group: &[&MeasuredMethod], rays: usize) -> String {
-    let mut rates: Vec<String> = group.iter().map(|row| wrong_rate(row, rays)).collect();
+fn label(group: &[&WorkPoint], rays: usize) -> String {
+    let mut rates: Vec<String> = group.iter().map(|p| wrong_rate(p.wrong, rays)).collect();
     rates.dedup();
-    let others: String = group[1..].iter().map(|row| letter(row)).collect();
+    let others: String = group[1..].iter().map(|p| letter(p.method)).collect();
     let rates = rates.join("/") + " %";
     if others.is_empty() {
         rates

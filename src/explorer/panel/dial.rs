@@ -6,13 +6,14 @@
 
 use std::collections::BTreeMap;
 
-use crate::explain::{self, DialSetting, Line, Role};
+use crate::explain::{self, Line, Role};
 use ratatui::layout::Rect;
 
 use crate::explorer::action::Action;
 use crate::explorer::panel::Panel;
 use crate::explorer::panel::component::{AS_FIGURE, Component};
 use crate::explorer::state::State;
+use crate::lab::chart::DialPoint;
 use crate::lab::picture::{PictureErrors, PixelError, pixel_errors};
 use crate::lab::{Dial, Turn};
 use crate::method::Method;
@@ -320,11 +321,11 @@ impl DialPanel {
             }
             (None, _) => say(Role::Plain, &format!("{method} has not broken so far.")),
         }
-        let settings: Vec<DialSetting> = found
+        let settings: Vec<DialPoint> = found
             .iter()
             .filter(|(_, errors)| errors.pixels > 0)
-            .map(|(&k, errors)| DialSetting {
-                k,
+            .map(|(&k, errors)| DialPoint {
+                k: k as i32,
                 wrong: errors.total_wrong() as f64 / errors.pixels as f64,
                 bits: errors.bits.map(|[median, _]| median),
             })

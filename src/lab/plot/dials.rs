@@ -1,11 +1,12 @@
 //! The stability chart: for each dial the bits that every method loses, and its wrong answers.
 
-use super::svg::{Anchor, Marker, Stroke, Svg};
-use super::{INK, Panel, legend, look, power_label};
-use crate::lab::stress::{MethodErrors, Stability, Sweep, bits_lost};
+use super::svg::{Marker, Stroke, Svg, TextAnchor};
+use super::{INK, Plot, legend, look, power_label};
+use crate::lab::chart::{BITS, DialPoint, Scale, dial_points};
+use crate::lab::stress::{Stability, Sweep, bits_lost};
 
 const COLUMNS: usize = 2;
-const BITS: [f64; 2] = [420.0, 150.0];
+const BITS_SIZE: [f64; 2] = [420.0, 150.0];
 const RATES: f64 = 60.0;
 const GAP: [f64; 2] = [70.0, 64.0];
 const LEFT: f64 = 62.0;
@@ -15,14 +16,14 @@ const TOP: f64 = 92.0;
 pub fn stability(report: &Stability) -> String {
     let rows = report.sweeps.len().div_ceil(COLUMNS);
     let columns = report.sweeps.len().clamp(1, COLUMNS);
-    let height_of_one = BITS[1] + RATES + GAP[1];
-    let width = (LEFT + columns as f64 * (BITS[0] + GAP[0])).max(760.0) - 20.0;
+    let height_of_one = BITS_SIZE[1] + RATES + GAP[1];
+    let width = (LEFT + columns as f64 * (BITS_SIZE[0] + GAP[0])).max(760.0) - 20.0;
     let height = TOP + rows as f64 * height_of_one;
     let mut svg = Svg::new(width, height, "Bits lost against each dial");
     header(&mut svg, report);
     for (i, sweep) in report.sweeps.iter().enumerate() {
         let at = [
-            LEFT + (i % COLUMNS) as f64 * (BITS[0] + GAP[0]),
+            LEFT + (i % COLUMNS) as f64 * (BITS_SIZE[0] + GAP[0]),
             TOP + (i / COLUMNS) as f64 * height_of_one,
         ];
         draw(&mut svg, at, report, sweep);
@@ -32,12 +33,12 @@ pub fn stability(report: &Stability) -> String {
 
 fn header(svg: &mut Svg, report: &Stability) {
     let title = "Stability: bits lost (of 24, the worst of each setting) and wrong answers";
-    svg.text([16.0, 24.0], title, 16.0, "#000000", Anchor::Start);
+    svg.text([16.0, 24.0], title, 16.0, "#000000", TextAnchor::Start);
     let note = format!(
         "{} rays a setting, seed {}; dashed from the first wrong answer on, which × marks; lines that coincide are nested",
         report.rays, report.seed
     );
-    svg.text([16.0, 42.0], &note, 11.0, INK, Anchor::Start);
+    svg.text([16.0, 42.0], &note, 11.0, INK, TextAnchor::Start);
     let methods: Vec<&str> = report.methods.iter().map(|method| method.name()).collect();
     legend(svg, [16.0, 62.0], &methods);
 }
@@ -46,52 +47,49 @@ fn draw(svg: &mut Svg, at: [f64; 2], report: &Stability, sweep: &Sweep) {
     let Some((first, last)) = sweep.steps.first().zip(sweep.steps.last()) else {
         return;
     };
-    let x = [f64::from(first.k), f64::from(last.k)];
-    let bits = Panel {
+    let x = Scale::new(f64::from(first.k), f64::from(last.k));
+    let bits = Plot {
         at,
-        size: BITS,
+        size: BITS_SIZE,
         x,
-        y: [0.0, 24.0],
+        y: BITS,
     };
-    let rates = Panel {
-        at: [at[0], at[1] + BITS[1] + 12.0],
-        size: [BITS[0], RATES],
+    let rates = Plot {
+        at: [at[0], at[1] + BITS_SIZE[1] + 12.0],
+        size: [BITS_SIZE[0], RATES],
         x,
-        y: [0.0, 100.0],
+        y: Scale::new(0.0, 1.0),
     };
     frame(svg, &bits, &rates, sweep);
-    for (i, method) in report.methods.iter().enumerate() {
+    let methods = report.methods.iter().enumerate();
+    let curves: Vec<_> = methods
+        .map(|(i, method)| (look(method.name()), dial_points(sweep, i)))
+        .collect();
+    for (i, ((color, _), points)) in curves.iter().enumerate() {
         // The later methods are thinner, and show those that they cover.
-        let width = 5.5 - 4.0 * i as f64 / (report.methods.len() - 1).max(1) as f64;
-        let (color, _) = look(method.name());
+        let width = 5.5 - 4.0 * i as f64 / (curves.len() - 1).max(1) as f64;
         let stroke = Stroke::solid(color, width);
-        let cells = || {
-            sweep
-                .steps
-                .iter()
-                .map(|s| (f64::from(s.k), &s.cells[i], s.census.rays))
-        };
-        let rate = |cell: &MethodErrors, rays: usize| {
-            100.0 * cell.errors.wrong.total() as f64 / rays.max(1) as f64
-        };
-        let line: Vec<[f64; 2]> = cells()
-            .map(|(k, cell, rays)| rates.place(k, rate(cell, rays)))
+        let wrong: Vec<[f64; 2]> = points
+            .iter()
+            .map(|p| rates.place(f64::from(p.k), p.wrong))
             .collect();
-        svg.polyline(&line, stroke);
-        bits_line(svg, &bits, stroke, cells().map(|(k, cell, _)| (k, cell)));
+        svg.polyline(&wrong, stroke);
+        bits_line(svg, &bits, stroke, points);
     }
     inputs_line(svg, &bits, sweep);
-    for (i, method) in report.methods.iter().enumerate() {
-        let (color, marker) = look(method.name());
-        mark(svg, &bits, sweep, i, marker, color);
+    for (i, ((color, marker), points)) in curves.iter().enumerate() {
+        mark(svg, &bits, points, i, *marker, color);
     }
 }
 
-fn frame(svg: &mut Svg, bits: &Panel, rates: &Panel, sweep: &Sweep) {
+fn frame(svg: &mut Svg, bits: &Plot, rates: &Plot, sweep: &Sweep) {
     let dial = sweep.dial;
     let name = |v: f64| (v, format!("{v:.0}"));
     bits.rules(svg, &[0.0, 6.0, 12.0, 18.0, 24.0].map(name));
-    rates.rules(svg, &[0.0, 50.0, 100.0].map(name));
+    rates.rules(
+        svg,
+        &[0.0, 0.5, 1.0].map(|v| (v, format!("{:.0}", 100.0 * v))),
+    );
     let steps = sweep.steps.len();
     let every = steps.div_ceil(8).max(1);
     let ticks: Vec<(f64, String)> = sweep
@@ -109,26 +107,19 @@ fn frame(svg: &mut Svg, bits: &Panel, rates: &Panel, sweep: &Sweep) {
     );
     rates.columns(svg, &ticks);
     bits.title(svg, &format!("{}: {}", dial.name, dial.quantity));
-    let beside = |panel: &Panel| [panel.at[0] - 34.0, panel.at[1] + panel.size[1] / 2.0];
+    let beside = |panel: &Plot| [panel.at[0] - 34.0, panel.at[1] + panel.size[1] / 2.0];
     svg.text_upwards(beside(bits), "bits lost", 10.0, INK);
     svg.text_upwards(beside(rates), "% wrong", 10.0, INK);
 }
 
 /// Solid up to the first wrong answer, dashed from there; it ends where no answer has an error.
-fn bits_line<'a>(
-    svg: &mut Svg,
-    panel: &Panel,
-    stroke: Stroke,
-    cells: impl Iterator<Item = (f64, &'a MethodErrors)>,
-) {
+fn bits_line(svg: &mut Svg, panel: &Plot, stroke: Stroke, points: &[DialPoint]) {
+    let told = points.iter().map_while(|p| Some((p, p.bits?)));
     let mut sound = Vec::new();
     let mut unsound = Vec::new();
-    for (k, cell) in cells {
-        let Some(bits) = cell.bits_worst() else {
-            break;
-        };
-        let at = panel.place(k, bits);
-        if unsound.is_empty() && cell.errors.wrong.total() == 0 {
+    for (point, bits) in told {
+        let at = panel.place(f64::from(point.k), bits);
+        if unsound.is_empty() && point.wrong == 0.0 {
             sound.push(at);
         } else {
             if unsound.is_empty() {
@@ -152,7 +143,7 @@ fn bits_line<'a>(
 }
 
 /// What rounding the inputs cost, where the dial is about that.
-fn inputs_line(svg: &mut Svg, panel: &Panel, sweep: &Sweep) {
+fn inputs_line(svg: &mut Svg, panel: &Plot, sweep: &Sweep) {
     let line: Vec<[f64; 2]> = sweep
         .steps
         .iter()
@@ -169,30 +160,29 @@ fn inputs_line(svg: &mut Svg, panel: &Panel, sweep: &Sweep) {
         };
         svg.polyline(&line, stroke);
         let label = "rounding p0, d, c, r, before any method";
-        svg.text([x - 8.0, y - 6.0], label, 10.0, INK, Anchor::End);
+        svg.text([x - 8.0, y - 6.0], label, 10.0, INK, TextAnchor::End);
     }
 }
 
 /// The method's marker on its line, and a cross at its first wrong answer.
 fn mark(
     svg: &mut Svg,
-    panel: &Panel,
-    sweep: &Sweep,
+    panel: &Plot,
+    points: &[DialPoint],
     method: usize,
     marker: Marker,
     color: &'static str,
 ) {
-    let at = |k: i32, bits: f64| panel.place(f64::from(k), bits);
+    let at = |point: &DialPoint, bits| panel.place(f64::from(point.k), bits);
     // Each method has a place of its own along the dial, so that markers do not cover each other.
-    let quarter = sweep.steps.len() / 8 + method * sweep.steps.len() / 40;
-    if let Some(step) = sweep.steps.get(quarter)
-        && let Some(bits) = step.cells[method].bits_worst()
+    let quarter = points.len() / 8 + method * points.len() / 40;
+    if let Some(point) = points.get(quarter)
+        && let Some(bits) = point.bits
     {
-        svg.marker(at(step.k, bits), marker, color);
+        svg.marker(at(point, bits), marker, color);
     }
-    let wrong = |cell: &MethodErrors| cell.errors.wrong.total() > 0;
-    if let Some(step) = sweep.steps.iter().find(|step| wrong(&step.cells[method])) {
-        let [x, y] = at(step.k, step.cells[method].bits_worst().unwrap_or(24.0));
+    if let Some(point) = points.iter().find(|p| p.wrong > 0.0) {
+        let [x, y] = at(point, point.bits.unwrap_or(BITS.last));
         let stroke = Stroke::solid(color, 2.0);
         svg.line([x - 5.0, y - 5.0], [x + 5.0, y + 5.0], stroke);
         svg.line([x - 5.0, y + 5.0], [x + 5.0, y - 5.0], stroke);

@@ -12,7 +12,7 @@ pub(super) struct Svg {
 
 /// Where a text stands with regard to its point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Anchor {
+pub(super) enum TextAnchor {
     Start,
     Middle,
     End,
@@ -103,11 +103,18 @@ impl Svg {
         );
     }
 
-    pub fn text(&mut self, [x, y]: [f64; 2], text: &str, size: f64, color: &str, anchor: Anchor) {
+    pub fn text(
+        &mut self,
+        [x, y]: [f64; 2],
+        text: &str,
+        size: f64,
+        color: &str,
+        anchor: TextAnchor,
+    ) {
         let anchor = match anchor {
-            Anchor::Start => "start",
-            Anchor::Middle => "middle",
-            Anchor::End => "end",
+            TextAnchor::Start => "start",
+            TextAnchor::Middle => "middle",
+            TextAnchor::End => "end",
         };
         let _ = writeln!(
             self.body,
@@ -119,7 +126,7 @@ impl Svg {
 
     /// Text on a white ground, readable across lines. (Twice, since not every program that shows SVG
     /// knows `paint-order`.)
-    pub fn label(&mut self, at: [f64; 2], text: &str, color: &str, anchor: Anchor) {
+    pub fn label(&mut self, at: [f64; 2], text: &str, color: &str, anchor: TextAnchor) {
         self.body += "<g stroke=\"#ffffff\" stroke-width=\"3\">";
         self.text(at, text, 10.0, "#ffffff", anchor);
         self.body += "</g>\n";

@@ -1,9 +1,10 @@
 //! The work–precision chart: time for one solve against its error, a panel for each set of rays.
 
-use super::svg::{Anchor, Stroke, Svg};
-use super::{INK, Panel, legend, look, power_label};
+use super::svg::{Stroke, Svg, TextAnchor};
+use super::{INK, Plot, legend, look, power_label};
 use crate::lab::bench::text::percent;
-use crate::lab::bench::{Benchmark, MeasuredMethod, MeasuredSet};
+use crate::lab::bench::{Benchmark, MeasuredSet};
+use crate::lab::chart::{Scale, WorkPoint, best, work_points};
 use crate::lab::machine::Machine;
 
 const COLUMNS: usize = 3;
@@ -15,7 +16,7 @@ const TOP: f64 = 96.0;
 
 /// The errors that the chart spans, as log₂ ulp: from a quarter of an ulp to nothing left, and room
 /// for the methods that have no right answer.
-const ERRORS: [f64; 2] = [-2.0, 36.0];
+const ERRORS: Scale = Scale::new(-2.0, 36.0);
 
 /// Where those stand.
 const NONE_RIGHT: f64 = 35.0;
@@ -30,7 +31,7 @@ pub fn work_precision(report: &Benchmark, machine: &Machine) -> String {
     header(&mut svg, report, machine);
     let times = span(report);
     for (i, set) in report.sets.iter().enumerate() {
-        let panel = Panel {
+        let panel = Plot {
             at: [
                 LEFT + (i % COLUMNS) as f64 * (PANEL[0] + GAP[0]),
                 TOP + (i / COLUMNS) as f64 * (PANEL[1] + GAP[1]),
@@ -46,7 +47,7 @@ pub fn work_precision(report: &Benchmark, machine: &Machine) -> String {
 
 fn header(svg: &mut Svg, report: &Benchmark, machine: &Machine) {
     let title = "Error (99th percentile, in ulp) against the time of one solve (ns): the lower left is best";
-    svg.text([16.0, 24.0], title, 16.0, "#000000", Anchor::Start);
+    svg.text([16.0, 24.0], title, 16.0, "#000000", TextAnchor::Start);
     let Machine {
         cpu,
         compiler,
@@ -62,29 +63,26 @@ fn header(svg: &mut Svg, report: &Benchmark, machine: &Machine) {
         "{cpu}; {compiler}, {flags}; seed {}{trusted}. Labels: rate of wrong answers. Grey: Pareto line.",
         report.seed
     );
-    svg.text([16.0, 42.0], &made, 11.0, INK, Anchor::Start);
+    svg.text([16.0, 42.0], &made, 11.0, INK, TextAnchor::Start);
     let first = report.sets.first();
     let methods: Vec<&str> =
         first.map_or(Vec::new(), |c| c.rows.iter().map(|r| r.method).collect());
     legend(svg, [16.0, 62.0], &methods);
 }
 
-/// log₁₀ of the shortest and the longest time, in whole steps of a factor of 10^(1/2).
-fn span(report: &Benchmark) -> [f64; 2] {
-    let times = report.sets.iter().flat_map(|set| &set.rows).map(log_time);
+/// log₂ of the shortest and the longest time, in whole steps of a factor of 10^(1/2).
+fn span(report: &Benchmark) -> Scale {
+    let half_decade = 10_f64.log2() / 2.0;
+    let times = report.sets.iter().flat_map(work_points).map(|p| p.time);
     let (least, most) = times.fold((f64::INFINITY, 0.0_f64), |(l, m), t| (l.min(t), m.max(t)));
-    let [least, most] = [least.min(most), most];
-    [
-        (2.0 * least - 0.2).floor() / 2.0,
-        (2.0 * most + 0.2).ceil() / 2.0,
-    ]
+    let [least, most] = [least.min(most), most].map(|time| time / half_decade);
+    Scale::new(
+        (least - 0.2).floor() * half_decade,
+        (most + 0.2).ceil() * half_decade,
+    )
 }
 
-fn log_time(row: &MeasuredMethod) -> f64 {
-    row.times.throughput.median.max(0.1).log10()
-}
-
-fn draw(svg: &mut Svg, panel: &Panel, set: &MeasuredSet) {
+fn draw(svg: &mut Svg, panel: &Plot, set: &MeasuredSet) {
     panel.rules(svg, &time_ticks(panel.y));
     let mut ticks: Vec<(f64, String)> = [-1, 4, 9, 14, 19, 24, 29]
         .map(|k| (f64::from(k), power_label(k)))
@@ -95,73 +93,51 @@ fn draw(svg: &mut Svg, panel: &Panel, set: &MeasuredSet) {
     panel.title(svg, &format!("{}, {rays} rays", set.name));
     let [x, y] = panel.at;
     svg.text_upwards([x - 42.0, y + PANEL[1] / 2.0], "ns", 10.0, INK);
-    pareto_line(svg, panel, set);
-    for row in &set.rows {
-        let (color, marker) = look(row.method);
-        svg.marker(point(panel, row), marker, color);
+    let points = work_points(set);
+    let line: Vec<[f64; 2]> = best(&points).iter().map(|p| place(panel, p)).collect();
+    if line.len() > 1 {
+        svg.polyline(&line, Stroke::solid("#d0d0d0", 5.0));
     }
-    labels(svg, panel, set);
+    for point in &points {
+        let (color, marker) = look(point.method);
+        svg.marker(place(panel, point), marker, color);
+    }
+    labels(svg, panel, points, &line, rays);
 }
 
-fn time_ticks([least, most]: [f64; 2]) -> Vec<(f64, String)> {
+fn time_ticks(scale: Scale) -> Vec<(f64, String)> {
     let marks = [
         1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1e3, 2e3, 5e3, 1e4,
     ];
     marks
         .into_iter()
-        .map(|ns: f64| (ns.log10(), ns.to_string()))
-        .filter(|(log, _)| (least..=most).contains(log))
+        .map(|ns: f64| (ns.log2(), ns.to_string()))
+        .filter(|&(log, _)| scale.contains(log))
         .collect()
 }
 
-fn point(panel: &Panel, row: &MeasuredMethod) -> [f64; 2] {
-    panel.place(error(row), log_time(row))
-}
-
-/// log₂ of the error.
-fn error(row: &MeasuredMethod) -> f64 {
-    if row.errors.judged == 0 {
-        return NONE_RIGHT;
-    }
-    row.errors.ulp.p99.max(1e-3).log2()
-}
-
-/// The methods that no other dominates, by their error.
-fn pareto_points(panel: &Panel, set: &MeasuredSet) -> Vec<[f64; 2]> {
-    let rows = set.rows.iter();
-    let best = rows.filter(|row| row.pareto && row.errors.judged > 0);
-    let mut best: Vec<[f64; 2]> = best.map(|row| point(panel, row)).collect();
-    best.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    best
-}
-
-fn pareto_line(svg: &mut Svg, panel: &Panel, set: &MeasuredSet) {
-    let best = pareto_points(panel, set);
-    if best.len() > 1 {
-        svg.polyline(&best, Stroke::solid("#d0d0d0", 5.0));
-    }
+fn place(panel: &Plot, point: &WorkPoint) -> [f64; 2] {
+    panel.place(point.error.unwrap_or(NONE_RIGHT), point.time)
 }
 
 /// The rate of wrong answers beside each point, where it covers neither a point nor a line nor
 /// another label; a thin line leads to one that is not right beside its point.
-fn labels(svg: &mut Svg, panel: &Panel, set: &MeasuredSet) {
-    let rays = set.census.rays;
-    let mut taken: Vec<Area> = set.rows.iter().map(|r| around(point(panel, r))).collect();
-    for pair in pareto_points(panel, set).windows(2) {
+fn labels(svg: &mut Svg, panel: &Plot, mut points: Vec<WorkPoint>, line: &[[f64; 2]], rays: usize) {
+    let mut taken: Vec<Area> = points.iter().map(|p| around(place(panel, p))).collect();
+    for pair in line.windows(2) {
         taken.extend(along(pair[0], pair[1]));
     }
-    let mut rows: Vec<&MeasuredMethod> = set.rows.iter().collect();
-    rows.sort_by(|a, b| log_time(a).total_cmp(&log_time(b)));
-    for row in rows {
-        let wrong = match row.errors.wrong.total() {
+    points.sort_by(|a, b| a.time.total_cmp(&b.time));
+    for point in points {
+        let wrong = match point.wrong {
             0 => "0 wrong".to_owned(),
             wrong => format!("{} wrong", percent(wrong, rays)),
         };
-        let at = point(panel, row);
+        let at = place(panel, &point);
         let area = free_area(panel, at, 5.6 * wrong.chars().count() as f64, &taken);
         taken.push(area);
         let Area { left, top, .. } = area;
-        let (color, _) = look(row.method);
+        let (color, _) = look(point.method);
         let to_the_right = left > at[0];
         let edge = if to_the_right {
             left
@@ -174,11 +150,16 @@ fn labels(svg: &mut Svg, panel: &Panel, set: &MeasuredSet) {
             svg.line(at, [edge + towards, middle], Stroke::solid(color, 0.8));
         }
         let anchor = if to_the_right {
-            Anchor::Start
+            TextAnchor::Start
         } else {
-            Anchor::End
+            TextAnchor::End
         };
-        svg.label([edge, middle + 3.5], &wrong, text_color(row.method), anchor);
+        svg.label(
+            [edge, middle + 3.5],
+            &wrong,
+            text_color(point.method),
+            anchor,
+        );
     }
 }
 
@@ -230,7 +211,7 @@ fn along(from: [f64; 2], to: [f64; 2]) -> impl Iterator<Item = Area> {
 }
 
 /// The free place for a label that is nearest to its point; beside it, if all are taken.
-fn free_area(panel: &Panel, [x, y]: [f64; 2], width: f64, taken: &[Area]) -> Area {
+fn free_area(panel: &Plot, [x, y]: [f64; 2], width: f64, taken: &[Area]) -> Area {
     let [x0, y0] = panel.at;
     let place = |dx: f64, dy: f64| Area {
         left: if dx > 0.0 { x + dx } else { x + dx - width },
