@@ -7,18 +7,17 @@ use std::time::{Duration, Instant};
 use clap::Args;
 
 use super::failure::{DONE, INVALID};
-use super::plan::buffer_of;
 use super::progress::{INTERRUPTED, Progress};
 use super::sweep::SweepArgs;
+use super::unseen::UnseenTerminal;
 use super::{Failure, Outcome, complain, save, whole, write_out};
 use crate::lab::bench::{self, BenchPlan, Benchmark, MOST_TIMED, Sample};
-use crate::lab::frames::{self, CellOutput, FrameSchedule};
+use crate::lab::frames::{self, FrameSchedule};
 use crate::lab::timing::{Schedule, SelfCheck, SystemClock};
 use crate::lab::{BenchLock, BenchQueue, Family, Machine, plot};
-use crate::render::{CELL_ASPECT, ColorDepth, Image, Style, fit};
+use crate::render::{CELL_ASPECT, Style, fit};
 use crate::report::Format;
 use crate::scene::{Rays, Scene};
-use crate::terminal::{Limits, Painter};
 
 /// Measure the methods: wrong answers, errors in ulp, nanoseconds
 #[derive(Debug, Args)]
@@ -139,7 +138,7 @@ fn run_frames(arguments: &BenchArgs) -> Outcome {
     let times = frames::run(
         &schedule,
         &SystemClock::new(),
-        &mut UnseenScreen::default(),
+        &mut UnseenTerminal::default(),
         |number, name| progress.go_on(number, name),
     );
     progress.clear();
@@ -155,17 +154,6 @@ fn run_frames(arguments: &BenchArgs) -> Outcome {
     } else {
         DONE
     })
-}
-
-/// A terminal of 256 colours that nobody looks at.
-#[derive(Default)]
-struct UnseenScreen(Painter);
-
-impl CellOutput for UnseenScreen {
-    fn show(&mut self, image: &Image) -> usize {
-        let mut cells = buffer_of(image, ColorDepth::Ansi256);
-        self.0.paint(&mut cells, None, Limits::default()).len()
-    }
 }
 
 fn plan(arguments: &BenchArgs) -> BenchPlan<'_> {

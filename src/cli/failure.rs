@@ -9,7 +9,7 @@ pub(super) const DONE: u8 = 0;
 pub(super) const INVALID: u8 = 1;
 
 /// The exit status where the program was called wrongly.
-pub(super) const MISUSED: u8 = 2;
+const MISUSED: u8 = 2;
 
 /// The exit status of a command, or why it could not do what was asked.
 pub(super) type Outcome = Result<u8, Failure>;

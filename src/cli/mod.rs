@@ -17,6 +17,7 @@ mod solve;
 mod stress;
 mod sweep;
 mod tour;
+mod unseen;
 mod variables;
 mod worksheet;
 

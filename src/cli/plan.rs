@@ -3,20 +3,18 @@
 use std::ffi::OsString;
 
 use clap::Args;
-use ratatui::buffer::Buffer;
-use ratatui::layout::Rect;
-use ratatui::style::{Color, Style as CellStyle};
-use serde::Serialize;
 
 use super::print::{fit_in, size, view_in};
+use super::unseen::UnseenTerminal;
 use super::{Failure, Outcome, aspect, choice, from_one, write_out};
-use crate::explain::{self, PlanLine};
+use crate::explain::{self, FramePlan, PlanLine, Plans};
 use crate::explorer::usual_step;
+use crate::lab::frames::CellOutput;
 use crate::method::Method;
-use crate::render::{AnsiColor, CELL_ASPECT, Cell, ColorDepth, Frame, Image, Look, Style, View};
-use crate::report::{self, Column, DataColumn, Format, Report, Table};
-use crate::scene::{PixelShape, Rays, Rgb, Scene, Size};
-use crate::terminal::{Capability, Limits, Painter};
+use crate::render::{CELL_ASPECT, Frame, Image, Look, Style, View};
+use crate::report::{self, Format};
+use crate::scene::{PixelShape, Rays, Scene, Size};
+use crate::terminal::Capability;
 
 /// Show what a frame needs, what is left out, and why
 #[derive(Debug, Args)]
@@ -53,35 +51,15 @@ pub(super) struct PlanArgs {
     format: Format,
 }
 
-/// The plans of some frames that follow each other.
-#[derive(Debug, Serialize)]
-struct Plans {
-    scene: String,
-    width: u32,
-    height: u32,
-    spheres: usize,
-    projection: &'static str,
-    method: &'static str,
-    view: &'static str,
-    style: &'static str,
-    frames: Vec<FramePlan>,
-}
-
-#[derive(Debug, Serialize)]
-struct FramePlan {
-    frame: &'static str,
-    what: String,
-    how: &'static str,
-    plan: Vec<PlanLine>,
-}
-
 /// Works out the plans, writes them and ends with the exit status.
 pub(super) fn run(arguments: &PlanArgs) -> Outcome {
     let plans = plans(arguments)?;
     write_out(&match arguments.format {
         Format::Json => report::json(&plans),
-        Format::Csv => records(&plans).csv(),
-        _ => Capability::of_output().glyphs.spell(&text(&plans).text()),
+        Format::Csv => explain::plans_table(&plans).csv(),
+        _ => Capability::of_output()
+            .glyphs
+            .spell(&explain::plans_report(&plans).text()),
     })
 }
 
@@ -96,7 +74,7 @@ fn plans(arguments: &PlanArgs) -> Result<Plans, Failure> {
     }
     let view = view_in(style, arguments.view).map_err(Failure::misused)?;
     let (size, shape) = fit_in(&scene, style, ROOM, arguments.size, arguments.aspect);
-    let mut screen = Screen::new(arguments, view, size, shape);
+    let mut screen = FrameSeries::new(arguments, view, size, shape);
     let mut frames = vec![screen.show(&scene, "whole", "the whole picture, on an empty screen")];
     frames.push(screen.show(&scene, "cursor", "the cursor has moved"));
     let step = usual_step(&scene);
@@ -121,8 +99,8 @@ fn plans(arguments: &PlanArgs) -> Result<Plans, Failure> {
 /// Columns and rows that a picture fills for which no size is asked.
 const ROOM: (u32, u32) = (80, 24);
 
-/// Follows what a terminal of 256 colours shows.
-struct Screen {
+/// Frames that follow each other on a terminal that shows them.
+struct FrameSeries {
     size: Size,
     shape: PixelShape,
     method: Method,
@@ -130,10 +108,10 @@ struct Screen {
     look: Look,
     frame: Frame,
     image: Image,
-    painter: Painter,
+    terminal: UnseenTerminal,
 }
 
-impl Screen {
+impl FrameSeries {
     fn new(arguments: &PlanArgs, view: View, size: Size, shape: PixelShape) -> Self {
         Self {
             size,
@@ -142,13 +120,13 @@ impl Screen {
             view,
             look: Look {
                 style: arguments.style,
-                depth: ColorDepth::Ansi256,
+                depth: UnseenTerminal::DEPTH,
                 ascii_only: false,
                 coarse: false,
             },
             frame: Frame::new(),
             image: Image::new(),
-            painter: Painter::default(),
+            terminal: UnseenTerminal::default(),
         }
     }
 
@@ -170,10 +148,8 @@ impl Screen {
     }
 
     fn bytes(&mut self) -> PlanLine {
-        let limits = Limits::default();
-        let cells = || buffer_of(&self.image, self.look.depth);
-        let all = Painter::default().paint(&mut cells(), None, limits).len() as u64;
-        let sent = self.painter.paint(&mut cells(), None, limits).len() as u64;
+        let all = UnseenTerminal::default().show(&self.image) as u64;
+        let sent = self.terminal.show(&self.image) as u64;
         PlanLine::new(
             "bytes sent",
             sent,
@@ -181,90 +157,4 @@ impl Screen {
             "of what all cells would take on an empty screen of 256 colours: a cell that the terminal shows already is not sent",
         )
     }
-}
-
-/// An image as the cells of a terminal with so many colours.
-pub(super) fn buffer_of(image: &Image, depth: ColorDepth) -> Buffer {
-    let columns = u16::try_from(image.cols).unwrap_or(u16::MAX);
-    let rows = u16::try_from(image.rows).unwrap_or(u16::MAX);
-    let mut buffer = Buffer::empty(Rect::new(0, 0, columns, rows));
-    for (y, line) in (0..rows).zip(image.lines()) {
-        for (x, cell) in (0..columns).zip(line) {
-            buffer[(x, y)]
-                .set_char(cell.glyph)
-                .set_style(style_of(cell, depth));
-        }
-    }
-    buffer
-}
-
-fn style_of(cell: &Cell, depth: ColorDepth) -> CellStyle {
-    let color = |color: Option<Rgb>| match color.and_then(|c| depth.nearest(c)) {
-        None => Color::Reset,
-        Some(AnsiColor::Basic(i) | AnsiColor::Indexed(i)) => Color::Indexed(i),
-        Some(AnsiColor::Rgb(Rgb(r, g, b))) => Color::Rgb(r, g, b),
-    };
-    CellStyle::new().fg(color(cell.fg)).bg(color(cell.bg))
-}
-
-fn text(plans: &Plans) -> Report {
-    let Plans {
-        scene,
-        width,
-        height,
-        spheres,
-        projection,
-        method,
-        view,
-        style,
-        frames,
-    } = plans;
-    let plural = if *spheres == 1 { "" } else { "s" };
-    let start = Report::new().words(format!(
-        "{scene}: {width}×{height} pixels, {spheres} sphere{plural}, {projection}, {method}, {view}, {style}"
-    ));
-    frames.iter().fold(start, |report, frame| {
-        report
-            .gap()
-            .words(&frame.what)
-            .words(frame.how)
-            .gap()
-            .table(table(&frame.plan))
-    })
-}
-
-fn table(plan: &[PlanLine]) -> Table {
-    let row = |line: &PlanLine| {
-        let [kept, left_out] = [line.kept, line.left_out].map(|n| n.to_string());
-        vec![
-            line.what.to_owned(),
-            kept,
-            left_out,
-            line.because.to_string(),
-        ]
-    };
-    let columns = [
-        Column::left(""),
-        Column::right("kept"),
-        Column::right("left out"),
-        Column::words("because"),
-    ];
-    Table::new(columns, plan.iter().map(row))
-}
-
-/// The columns of the CSV: of a frame, and of one line of its plan.
-const COLUMNS: [DataColumn<(&'static str, PlanLine)>; 5] = [
-    ("frame", |(frame, _)| (*frame).to_owned()),
-    ("what", |(_, line)| line.what.trim_start().to_owned()),
-    ("kept", |(_, line)| line.kept.to_string()),
-    ("left_out", |(_, line)| line.left_out.to_string()),
-    ("because", |(_, line)| line.because.to_string()),
-];
-
-fn records(plans: &Plans) -> Table {
-    let lines = plans
-        .frames
-        .iter()
-        .flat_map(|frame| frame.plan.iter().map(|line| (frame.frame, line.clone())));
-    Table::of(&COLUMNS, lines)
 }

@@ -24,7 +24,9 @@ pub use derivation::{Drawn, Question, Step, derivation};
 pub use figure::{Float, Ink, Landmark, bits, curve, landmarks, slice, turning, work};
 pub use number::{Digits, number, vector};
 pub use panel::{Line, Role, Span, fit, lines, plain_text};
-pub use plan::{PlanLine, plan_lines, plan_panel, plan_sentence};
+pub use plan::{
+    FramePlan, PlanLine, Plans, plan_lines, plan_panel, plan_sentence, plans_report, plans_table,
+};
 pub use steps::{StepLook, question_lines, step_lines, step_list, step_words, steps_text};
 pub use worksheet::Worksheet;
 

@@ -1,11 +1,13 @@
 //! The plan of a frame as lines of text: what was done, what was left out, and why.
 
 mod reasons;
+mod report;
 
 use super::panel::{Line, Role};
 use crate::text::wrap;
 
 pub use reasons::{PlanLine, plan_lines, plan_sentence};
+pub use report::{FramePlan, Plans, plans_report, plans_table};
 
 /// Columns of a thing's name, and of each of its two numbers.
 const NAME: usize = 16;

@@ -46,6 +46,17 @@ impl PlanLine {
     ) -> Self {
         Self::new(what, kept, all.saturating_sub(kept), because)
     }
+
+    /// A line of a thing of which `left_out` were not done out of `all`.
+    fn without(
+        what: &'static str,
+        left_out: u64,
+        all: u64,
+        because: impl Into<Cow<'static, str>>,
+    ) -> Self {
+        let left_out = left_out.min(all);
+        Self::new(what, all - left_out, left_out, because)
+    }
 }
 
 /// How the spheres of a frame are asked about, in a sentence.
@@ -93,7 +104,7 @@ fn pixels(plan: &Plan) -> PlanLine {
     } else {
         "the camera, the question or most of the picture is new"
     };
-    PlanLine::new("pixels anew", all - kept, kept, because)
+    PlanLine::without("pixels anew", kept, all, because)
 }
 
 fn rays(plan: &Plan) -> PlanLine {
@@ -150,12 +161,7 @@ fn in_the_picture(plan: &Plan) -> PlanLine {
     };
     let outside = plan.counts().outside;
     let because = format!("the projection, {widened}, has no pixel");
-    PlanLine::new(
-        "  in the picture",
-        plan.spheres() - outside,
-        outside,
-        because,
-    )
+    PlanLine::without("  in the picture", outside, plan.spheres(), because)
 }
 
 fn not_hidden(plan: &Plan) -> PlanLine {
@@ -167,7 +173,7 @@ fn not_hidden(plan: &Plan) -> PlanLine {
         "the view tells of every sphere on the line"
     };
     let hidden = plan.counts().hidden;
-    PlanLine::new("  not hidden", plan.spheres() - hidden, hidden, because)
+    PlanLine::without("  not hidden", hidden, plan.spheres(), because)
 }
 
 fn near_roots(plan: &Plan) -> PlanLine {
@@ -177,7 +183,7 @@ fn near_roots(plan: &Plan) -> PlanLine {
     } else {
         "the method gives both roots at once"
     };
-    PlanLine::new("near roots", asked - around.min(asked), around, because)
+    PlanLine::without("near roots", around, asked, because)
 }
 
 fn rows(plan: &Plan) -> PlanLine {

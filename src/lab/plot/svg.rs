@@ -96,7 +96,7 @@ impl Svg {
         );
     }
 
-    pub fn rect(&mut self, [x, y]: [f64; 2], [w, h]: [f64; 2], fill: &str) {
+    fn rect(&mut self, [x, y]: [f64; 2], [w, h]: [f64; 2], fill: &str) {
         let _ = writeln!(
             self.body,
             "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{w:.1}\" height=\"{h:.1}\" fill=\"{fill}\"/>"
