@@ -110,6 +110,7 @@ impl Appearance {
         Ok(Options {
             depth: capability.depth,
             palette: self.theme.unwrap_or(capability.palette),
+            follows_ground: self.theme.is_none(),
             glyphs,
             reasons,
             ..options

@@ -65,9 +65,24 @@ pub(crate) fn set_view(state: &mut State, view: View) {
     say_legend(state);
 }
 
+/// Takes the colours for the ground that the terminal says it has; false if others were chosen.
+pub(crate) fn set_ground(state: &mut State, is_light: bool) -> bool {
+    let options = &mut state.options;
+    if options.follows_ground {
+        options.palette = if is_light {
+            Palette::Light
+        } else {
+            Palette::Dark
+        };
+        options.reasons.palette = "the terminal says so";
+    }
+    options.follows_ground
+}
+
 pub(crate) fn set_palette(state: &mut State, palette: Palette) {
     state.options.palette = palette;
     state.options.reasons.palette = CHOSEN_HERE;
+    state.options.follows_ground = false;
     state.say(format!("Theme: {}, {}.", palette.name(), palette.words()));
 }
 

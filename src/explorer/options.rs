@@ -13,6 +13,8 @@ pub struct Options {
     pub depth: ColorDepth,
     /// Which of them serve what.
     pub palette: Palette,
+    /// Whether the theme goes by what the terminal says of its ground.
+    pub follows_ground: bool,
     /// The characters that the terminal has.
     pub glyphs: Glyphs,
     /// Why these.
@@ -45,7 +47,7 @@ impl Options {
     pub const fn colors(&self) -> ColorDepth {
         match self.palette {
             Palette::Monochrome => ColorDepth::None,
-            Palette::Dark | Palette::Light | Palette::HighContrast => self.depth,
+            Palette::Dark | Palette::Light | Palette::Either | Palette::HighContrast => self.depth,
         }
     }
 }
@@ -56,6 +58,7 @@ impl Default for Options {
             aspect: 2.0,
             depth: ColorDepth::Ansi256,
             palette: Palette::default(),
+            follows_ground: false,
             glyphs: Glyphs::Unicode,
             reasons: Reasons::default(),
         }

@@ -147,10 +147,25 @@ impl Explorer {
         }
     }
 
-    /// Brings picture and panels up to date for a screen of this many columns and rows.
+    /// Lets an event change the state that came before the terminal had shown what was drawn last: it
+    /// is no answer by which something would be lost.
+    pub fn update_typed_ahead(&mut self, event: &Event) -> bool {
+        self.note_question_shown(false);
+        self.update(event)
+    }
+
+    /// Brings picture and panels up to date for a screen of this many columns and rows, which is
+    /// drawn next.
     pub fn prepare(&mut self, cols: u16, rows: u16) {
         self.prepare_picture(cols, rows);
         self.panels.refresh(&self.state);
+        self.note_question_shown(true);
+    }
+
+    fn note_question_shown(&mut self, is_shown: bool) {
+        if let Some(Mode::Asking(asking)) = self.modes.last_mut() {
+            asking.is_shown = is_shown;
+        }
     }
 
     fn prepare_picture(&mut self, cols: u16, rows: u16) {
@@ -194,6 +209,11 @@ impl Explorer {
     /// Shows a sentence until the next key.
     pub fn tell(&mut self, sentence: &str) {
         self.state.say(sentence);
+    }
+
+    /// Takes the colours for the ground that the terminal says it has; false if others were chosen.
+    pub fn set_ground(&mut self, is_light: bool) -> bool {
+        look::set_ground(&mut self.state, is_light)
     }
 
     /// Notes how many bytes a frame took, for the plan.
@@ -404,7 +424,7 @@ impl Explorer {
             Command::SaveAs(name) => saving::save_as_named(state, &name),
             Command::Overwrite(path) => saving::write(state, &path, Over::Anything),
             Command::Recover(path) => keep::recover(state, &path),
-            Command::Discard(path) => keep::discard(state, &path),
+            Command::Discard(path) => keep::discard(state, path),
             Command::Set(setting) => set::set(state, setting),
             Command::Copy(form) => export_case::copy(state, form),
             Command::Append(name) => match state.workplace.reach(&name) {

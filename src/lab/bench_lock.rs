@@ -1,8 +1,8 @@
 //! The right to measure, which one thread of the whole host has at a time: two measurements at
-//! once would time each other. Whoever asks while it is taken queues, and gets it in turn.
+//! once would time each other. Who asks while it is taken queues, and gets it in turn.
 //!
 //! The queue is a row of places, each the name of a [`HostLock`]. A newcomer takes the place behind
-//! the last that is taken; whoever waits moves up as the place before becomes free; who has place 0
+//! the last that is taken; who waits moves up as the place before becomes free; who has place 0
 //! measures. A process that dies leaves its place to the next, since the system frees its names.
 
 use std::fmt;
@@ -134,7 +134,7 @@ impl BenchQueue {
         }))
     }
 
-    /// How long whoever has that place said that they need.
+    /// How long the holder of that place said to need.
     fn length_at(&self, number: usize) -> Duration {
         let told = |&exponent: &u32| {
             let taken = HostLock::is_taken(&self.length(number, exponent));
@@ -220,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn whoever_gives_up_leaves_the_queue() {
+    fn one_who_gives_up_leaves_the_queue() {
         let queue = BenchQueue::private();
         let _first = queue.wait(SHORT, |_| false).unwrap();
         assert!(queue.wait(SHORT, |_| false).unwrap().is_none());

@@ -52,6 +52,9 @@ pub struct Device {
 }
 
 impl Device {
+    /// Answers to queries come between the keys, in bytes of their own.
+    pub const CAN_BE_ASKED: bool = true;
+
     /// Opens the terminal of this process.
     pub fn open() -> io::Result<Self> {
         let flags = OFlags::RDWR | OFlags::NOCTTY | OFlags::NONBLOCK | OFlags::CLOEXEC;

@@ -12,7 +12,7 @@ use crate::text::Glyphs;
 pub struct Capability {
     /// How many colours.
     pub depth: ColorDepth,
-    /// Why so many.
+    /// Why as many.
     pub depth_reason: &'static str,
     /// Which characters.
     pub glyphs: Glyphs,
@@ -98,6 +98,12 @@ impl Capability {
     }
 }
 
+/// Whether terminals of that name have all colours, whatever the environment says.
+fn is_direct(term: &str) -> bool {
+    let name = |known: &&str| term == *known || term.starts_with(&format!("{known}-"));
+    term.ends_with("-direct") || ["alacritty", "foot"].iter().any(name)
+}
+
 impl Environment {
     fn with(&self, depth: ColorDepth, depth_reason: &'static str) -> Capability {
         let (glyphs, glyphs_reason) = self.glyphs();
@@ -120,6 +126,9 @@ impl Environment {
         // That program sets COLORTERM for shells that it can't show the colours of.
         if direct && self.term_program.as_deref() != Some("Apple_Terminal") {
             return (ColorDepth::True, "COLORTERM says so");
+        }
+        if is_direct(term) {
+            return (ColorDepth::True, "TERM names a terminal with 24 bits");
         }
         if term.contains("256") {
             return (ColorDepth::Ansi256, "TERM names 256 colours");
@@ -154,7 +163,7 @@ impl Environment {
         match ground {
             Some("7" | "15") => (Palette::Light, "COLORFGBG tells of a light ground"),
             Some(_) => (Palette::Dark, "COLORFGBG tells of a dark ground"),
-            None => (Palette::Dark, "nothing tells of a light ground"),
+            None => (Palette::Either, "the ground is not known yet"),
         }
     }
 }
@@ -190,6 +199,16 @@ mod tests {
         assert_eq!(depth(|e| e.term = Some("linux".into())), ColorDepth::Ansi16);
         assert_eq!(depth(|e| e.term = Some("xterm".into())), ColorDepth::Ansi16);
         assert_eq!(depth(|e| e.term = Some("vt100".into())), ColorDepth::None);
+        for term in [
+            "alacritty",
+            "alacritty-direct",
+            "foot",
+            "foot-extra",
+            "tmux-direct",
+        ] {
+            let found = with(|e| e.term = Some(term.into())).unwrap().depth;
+            assert_eq!(found, ColorDepth::True, "{term}");
+        }
         assert_eq!(
             depth(|e| {
                 e.term = Some("xterm".into());
@@ -209,7 +228,7 @@ mod tests {
         assert_eq!(palette(Some("0;15")), Palette::Light);
         assert_eq!(palette(Some("0;default;7")), Palette::Light);
         assert_eq!(palette(Some("15;0")), Palette::Dark);
-        assert_eq!(palette(None), Palette::Dark);
+        assert_eq!(palette(None), Palette::Either);
     }
 
     #[test]

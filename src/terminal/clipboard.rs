@@ -2,8 +2,8 @@
 
 use std::env;
 
-/// Whether the terminal at least ignores what it does not know. The Linux console writes it out.
-pub fn is_worth_trying() -> bool {
+/// Whether the terminal at least ignores strings that it does not know. The Linux console writes it out.
+pub fn swallows_strings() -> bool {
     env::var("TERM").is_ok_and(|term| term != "linux" && !term.starts_with("vt"))
 }
 

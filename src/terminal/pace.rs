@@ -23,10 +23,15 @@ const WINDOW: usize = 4096;
 const FIRST_ANSWER: Duration = Duration::from_secs(1);
 /// One that has answered before is given this long, and is written to then all the same.
 const NEXT_ANSWER: Duration = Duration::from_secs(5);
+/// One that answers nothing is taken to show a frame so long after it was written.
+const NO_ANSWER: Duration = Duration::from_millis(300);
+/// How long an answer may hold up the end, if no round trip was measured, and at most.
+const LAST_ANSWER: Duration = Duration::from_millis(200);
+const LONGEST_LAST_ANSWER: Duration = Duration::from_secs(3);
 
 /// A frame that had to wait for so long waited for a slow link, or for one that stalls.
 const LONG: Duration = Duration::from_millis(100);
-/// After so many of them in turn frames are coarse: a link that stalled has no second one.
+/// After this many of them in turn frames are coarse: a link that stalled has no second one.
 const ENOUGH: u8 = 2;
 /// After so long without a frame the person rests, and the picture gets its detail back: longer than
 /// from one key to the next while it is held down.
@@ -90,6 +95,8 @@ pub struct Pace {
     /// The bytes of small frames since the last query.
     unasked: usize,
     habit: Habit,
+    /// From a query to its answer, the last time.
+    round_trip: Option<Duration>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -101,14 +108,31 @@ enum Habit {
 }
 
 impl Pace {
-    /// Whether a query at the end of a frame of so many bytes is worth its own.
+    /// That of a terminal that can be asked, or not.
+    pub fn new(can_be_asked: bool) -> Self {
+        Self {
+            habit: if can_be_asked {
+                Habit::Unknown
+            } else {
+                Habit::Silent
+            },
+            ..Self::default()
+        }
+    }
+
+    /// Whether a query at the end of a frame of this many bytes is worth its own.
     pub fn asks(&self, bytes: usize) -> bool {
         self.habit != Habit::Silent && self.unasked + bytes >= UNASKED
     }
 
-    /// A frame of `bytes` has been handed over, with a query at its end if [`Pace::asks`].
-    pub fn wrote(&mut self, bytes: usize, now: Instant) {
-        if self.asks(bytes) {
+    /// Whether a query may be answered.
+    pub fn can_ask(&self) -> bool {
+        self.habit != Habit::Silent
+    }
+
+    /// A frame of `bytes` has been handed over, with a query at its end or none.
+    pub fn wrote(&mut self, bytes: usize, asked: bool, now: Instant) {
+        if asked {
             self.unanswered.push_back((now, self.unasked + bytes));
             self.unasked = 0;
         } else {
@@ -117,9 +141,27 @@ impl Pace {
     }
 
     /// The terminal has answered a query.
-    pub fn answered(&mut self) {
+    pub fn answered(&mut self, now: Instant) {
         self.habit = Habit::Answers;
-        self.unanswered.pop_front();
+        if let Some((asked, _)) = self.unanswered.pop_front() {
+            self.round_trip = Some(now.saturating_duration_since(asked));
+        }
+    }
+
+    /// How long the answer to a query may take until it is taken not to come.
+    pub fn patience(&self) -> Duration {
+        match self.habit {
+            Habit::Answers => NEXT_ANSWER,
+            Habit::Unknown => FIRST_ANSWER,
+            Habit::Silent => NO_ANSWER,
+        }
+    }
+
+    /// How long to wait at the end for the answers that are still to come.
+    pub fn last_patience(&self) -> Duration {
+        self.round_trip.map_or(LAST_ANSWER, |round_trip| {
+            (2 * round_trip + LAST_ANSWER).min(LONGEST_LAST_ANSWER)
+        })
     }
 
     /// When the next frame may go out; none if at once.
@@ -129,16 +171,15 @@ impl Pace {
         if bytes < WINDOW {
             return None;
         }
-        let patience = match self.habit {
-            Habit::Answers => NEXT_ANSWER,
-            Habit::Unknown | Habit::Silent => FIRST_ANSWER,
-        };
+        let patience = self.patience();
         if now < oldest + patience {
             return Some(oldest + patience);
         }
-        if self.habit == Habit::Unknown {
-            self.habit = Habit::Silent;
-        }
+        // Each answer that does not come lets the next be waited for less, and then not at all.
+        self.habit = match self.habit {
+            Habit::Answers => Habit::Unknown,
+            Habit::Unknown | Habit::Silent => Habit::Silent,
+        };
         self.unanswered.clear();
         None
     }
@@ -148,7 +189,7 @@ impl Pace {
         !self.unanswered.is_empty()
     }
 
-    /// Starts anew, as on a terminal that has been away.
+    /// Starts again, as on a terminal that has been away.
     pub fn forget(&mut self) {
         self.unanswered.clear();
         self.unasked = 0;
@@ -161,6 +202,11 @@ mod tests {
 
     fn after(start: Instant, ms: u64) -> Instant {
         start + Duration::from_millis(ms)
+    }
+
+    fn wrote(pace: &mut Pace, bytes: usize, now: Instant) {
+        let asked = pace.asks(bytes);
+        pace.wrote(bytes, asked, now);
     }
 
     /// Whether a frame that waits from one millisecond to another is coarse.
@@ -213,15 +259,15 @@ mod tests {
         let start = Instant::now();
         let mut pace = Pace::default();
         assert_eq!(pace.due(start), None);
-        pace.wrote(1000, start);
+        wrote(&mut pace, 1000, start);
         assert_eq!(pace.due(start), None, "little is on its way");
-        pace.answered();
-        pace.wrote(3000, start);
-        pace.wrote(3000, start);
+        pace.answered(start);
+        wrote(&mut pace, 3000, start);
+        wrote(&mut pace, 3000, start);
         assert_eq!(pace.due(after(start, 900)), Some(start + NEXT_ANSWER));
-        pace.answered();
+        pace.answered(start);
         assert_eq!(pace.due(after(start, 1000)), None);
-        pace.answered();
+        pace.answered(start);
         assert!(!pace.is_waiting());
     }
 
@@ -231,16 +277,16 @@ mod tests {
         let mut pace = Pace::default();
         for _ in 0..3 {
             assert!(!pace.asks(300));
-            pace.wrote(300, start);
+            wrote(&mut pace, 300, start);
         }
         assert!(!pace.is_waiting());
         for _ in 0..3 {
             assert!(pace.asks(3500));
-            pace.wrote(3500, start);
-            pace.answered();
+            wrote(&mut pace, 3500, start);
+            pace.answered(start);
         }
-        pace.wrote(300, start);
-        pace.wrote(3900, start);
+        wrote(&mut pace, 300, start);
+        wrote(&mut pace, 3900, start);
         assert_eq!(pace.due(start), Some(start + NEXT_ANSWER), "both count");
     }
 
@@ -249,13 +295,13 @@ mod tests {
         let start = Instant::now();
         let mut pace = Pace::default();
         assert!(pace.asks(5000));
-        pace.wrote(5000, start);
+        wrote(&mut pace, 5000, start);
         assert_eq!(pace.due(start), Some(start + FIRST_ANSWER));
         assert_eq!(pace.due(after(start, 1000)), None);
         assert!(!pace.asks(5000));
-        pace.wrote(5000, after(start, 1001));
+        wrote(&mut pace, 5000, after(start, 1001));
         assert_eq!(pace.due(after(start, 1001)), None);
-        pace.answered();
+        pace.answered(start);
         assert!(pace.asks(5000), "it was only late");
     }
 
@@ -263,11 +309,42 @@ mod tests {
     fn a_terminal_that_stopped_answering_is_not_waited_for_in_vain() {
         let start = Instant::now();
         let mut pace = Pace::default();
-        pace.wrote(5000, start);
-        pace.answered();
-        pace.wrote(5000, start);
+        wrote(&mut pace, 5000, start);
+        pace.answered(start);
+        wrote(&mut pace, 5000, start);
         assert_eq!(pace.due(start), Some(start + NEXT_ANSWER));
         assert_eq!(pace.due(start + NEXT_ANSWER), None);
         assert!(pace.asks(5000));
+    }
+
+    #[test]
+    fn a_terminal_that_stopped_answering_delays_two_frames_and_no_more() {
+        let mut now = Instant::now();
+        let mut pace = Pace::default();
+        wrote(&mut pace, 5000, now);
+        pace.answered(now);
+        let mut delays = Vec::new();
+        for _ in 0..10 {
+            wrote(&mut pace, 5000, now);
+            if let Some(at) = pace.due(now) {
+                delays.push(at - now);
+                now = at;
+                assert_eq!(pace.due(now), None);
+            }
+        }
+        assert_eq!(delays, [NEXT_ANSWER, FIRST_ANSWER]);
+    }
+
+    #[test]
+    fn the_end_waits_by_the_measured_round_trip() {
+        let start = Instant::now();
+        let mut pace = Pace::default();
+        wrote(&mut pace, 5000, start);
+        assert_eq!(pace.last_patience(), LAST_ANSWER, "none was measured");
+        pace.answered(after(start, 800));
+        assert!(pace.last_patience() > Duration::from_millis(1600));
+        wrote(&mut pace, 5000, start);
+        pace.answered(start + Duration::from_secs(60));
+        assert_eq!(pace.last_patience(), LONGEST_LAST_ANSWER);
     }
 }

@@ -7,33 +7,34 @@ use std::panic;
 use std::sync::{Arc, Mutex, MutexGuard, Once, PoisonError};
 use std::time::{Duration, Instant};
 
+use super::TerminalInput;
 use super::clipboard;
-use super::keyboard::{Heard, Keyboard};
+use super::keyboard::{Keyboard, TerminalMessage};
 use super::pace::{Detail, Pace, QUERY};
 use super::painter::{Limits, Painter};
-use super::{Input, Link};
 use crate::explorer::Explorer;
 use crate::system::{
     Device, HUNG_UP, Inbox, SignalRequest, Waker, has_job_control, stop_job, stop_process,
 };
 use ratatui::buffer::Buffer;
+use ratatui::crossterm::event::Event;
 use ratatui::layout::Rect;
 
 /// The alternate screen; pastes marked as such.
 const ENTER: &[u8] = b"\x1b[?1049h\x1b[?2004h";
 /// All that may have been turned on, the screen cleared for terminals without an alternate one.
 const LEAVE: &[u8] =
-    b"\x1b[?2026l\x1b[?1006l\x1b[?1000l\x1b[?2004l\x1b[m\x1b[2J\x1b[H\x1b[?1049l\x1b[?25h";
+    b"\x1b[?2026l\x1b[?2031l\x1b[?1006l\x1b[?1000l\x1b[?2004l\x1b[m\x1b[2J\x1b[H\x1b[?1049l\x1b[?25h";
+/// Asks for the colour of the ground, and to be told when it changes between light and dark.
+const ASK_GROUND: &[u8] = b"\x1b[?2031h\x1b]11;?\x1b\\";
 /// Presses and the wheel are reported, motion is not.
 const MOUSE_ON: &[u8] = b"\x1b[?1000h\x1b[?1006h";
 const MOUSE_OFF: &[u8] = b"\x1b[?1006l\x1b[?1000l";
 
-/// How long the rest of what has begun may take, over a network too.
-const REST_PATIENCE: Duration = Duration::from_millis(50);
 /// How long a terminal that does not read may hold up the end.
 const END_PATIENCE: Duration = Duration::from_millis(500);
-/// How long the answer to the last query may hold up the end.
-const LAST_ANSWER: Duration = Duration::from_millis(200);
+/// The largest screen that is drawn, in columns and rows; a terminal can say any size of itself.
+const LARGEST_SCREEN: (u16, u16) = (1000, 400);
 
 /// The terminal that is ours now, for a panic to give back.
 static HELD: Mutex<Option<Arc<Device>>> = Mutex::new(None);
@@ -44,10 +45,15 @@ pub struct Session {
     device: Arc<Device>,
     inbox: Inbox,
     keyboard: Keyboard,
-    /// When what has begun on the keyboard is taken as it stands.
-    settles: Option<Instant>,
+    /// When the rest of what has begun on the keyboard is no longer waited for.
+    gives_up: Option<Instant>,
+    /// When a question was written that the terminal has not shown yet, as far as is known.
+    unseen: Option<Instant>,
+    /// The size that the terminal had when it was last too large.
+    too_large: Option<(u16, u16)>,
+    asked_ground: bool,
     /// What came in and has not been asked for.
-    inputs: VecDeque<Input>,
+    inputs: VecDeque<TerminalInput>,
     painter: Painter,
     canvas: Buffer,
     pace: Pace,
@@ -77,11 +83,15 @@ impl Session {
             device: Arc::new(Device::open()?),
             inbox: Inbox::open()?,
             keyboard: Keyboard::default(),
-            settles: None,
+            gives_up: None,
+            // What was typed before the first frame answers nothing.
+            unseen: Some(Instant::now()),
+            too_large: None,
+            asked_ground: false,
             inputs: VecDeque::new(),
             painter: Painter::default(),
             canvas: Buffer::default(),
-            pace: Pace::default(),
+            pace: Pace::new(Device::CAN_BE_ASKED),
             detail: Detail::default(),
             frame: Vec::new(),
             written: 0,
@@ -101,6 +111,7 @@ impl Session {
         self.frame.extend_from_slice(ENTER);
         self.written = 0;
         self.mouse = false;
+        self.asked_ground = false;
         self.painter.forget();
         self.pace.forget();
         self.detail = Detail::default();
@@ -109,22 +120,25 @@ impl Session {
 
     /// Gives the terminal back as it was found.
     fn give_back(&mut self) {
-        if self.standing == Standing::Ours {
+        // A panic has given it back already: to do so twice would clear what it says.
+        let is_held = held().take().is_some();
+        if is_held && self.standing == Standing::Ours {
             // Half a frame would end in half a sequence.
             let rest = &self.frame[self.written..];
             self.device.write_within(rest, END_PATIENCE);
             self.device.write_within(LEAVE, END_PATIENCE);
             self.await_answers();
+        }
+        if self.standing == Standing::Ours {
             self.standing = Standing::GivenBack;
         }
-        *held() = None;
         // Where the terminal is gone, so are its modes.
         let _ = self.device.restore_modes();
     }
 
     /// Waits for the answers to what was asked: later they would be typed at the shell.
     fn await_answers(&mut self) {
-        let deadline = Instant::now() + LAST_ANSWER;
+        let deadline = Instant::now() + self.pace.last_patience();
         while self.pace.is_waiting() {
             let left = deadline.saturating_duration_since(Instant::now());
             if left.is_zero() || self.look(Some(left)).is_err() {
@@ -158,7 +172,7 @@ impl Session {
     fn hang_up(&mut self) {
         if self.standing != Standing::Gone {
             self.standing = Standing::Gone;
-            self.inputs.push_back(Input::End(HUNG_UP));
+            self.inputs.push_back(TerminalInput::End(HUNG_UP));
         }
     }
 
@@ -173,18 +187,19 @@ impl Session {
             self.handle_signal(request)?;
         }
         if arrivals.is_woken {
-            self.inputs.push_back(Input::Woken);
+            self.inputs.push_back(TerminalInput::Woken);
         }
-        let events = arrivals.events.into_iter().map(Input::Event);
-        self.inputs.extend(events);
+        for event in arrivals.events {
+            self.take_event(event);
+        }
         if !arrivals.bytes.is_empty() {
-            let mut heard = VecDeque::new();
-            self.keyboard.feed(&arrivals.bytes, &mut heard);
-            self.take_in(heard);
-        } else if self.settles.is_some_and(|at| at <= Instant::now()) {
-            let mut heard = VecDeque::new();
-            self.keyboard.settle(&mut heard);
-            self.take_in(heard);
+            let mut messages = VecDeque::new();
+            self.keyboard.feed(&arrivals.bytes, &mut messages);
+            self.take_in(messages);
+        } else if self.gives_up.is_some_and(|at| at <= Instant::now()) {
+            let mut messages = VecDeque::new();
+            self.keyboard.give_up(&mut messages);
+            self.take_in(messages);
         }
         if arrivals.is_writable {
             self.flush()?;
@@ -194,37 +209,72 @@ impl Session {
 
     fn handle_signal(&mut self, request: SignalRequest) -> io::Result<()> {
         match request {
-            SignalRequest::End(status) => self.inputs.push_back(Input::End(status)),
+            SignalRequest::End(status) => self.inputs.push_back(TerminalInput::End(status)),
             SignalRequest::Resize => {
                 // What a terminal makes of its cells when it grows or shrinks is its own affair.
                 self.painter.forget();
-                self.inputs.push_back(Input::Redraw);
+                self.inputs.push_back(TerminalInput::Redraw);
             }
             // Without a shell that waits nobody would tell it to go on.
             SignalRequest::Stop if !has_job_control() => {}
-            SignalRequest::Stop => self.inputs.push_back(Input::Stop),
+            SignalRequest::Stop => self.inputs.push_back(TerminalInput::Stop),
             SignalRequest::GoOn => {
                 self.take_over()?;
-                self.inputs.push_back(Input::Redraw);
+                self.inputs.push_back(TerminalInput::Redraw);
             }
         }
         Ok(())
     }
 
-    fn take_in(&mut self, heard: VecDeque<Heard>) {
+    fn take_in(&mut self, messages: VecDeque<TerminalMessage>) {
         let now = Instant::now();
-        self.settles = self.keyboard.is_waiting().then(|| now + REST_PATIENCE);
-        for what in heard {
-            match what {
-                Heard::Event(event) => self.inputs.push_back(Input::Event(event)),
-                Heard::Ready => self.pace.answered(),
+        self.gives_up = self.keyboard.patience().map(|patience| now + patience);
+        for message in messages {
+            match message {
+                TerminalMessage::Event(event) => self.take_event(event),
+                TerminalMessage::Ground { is_light } => {
+                    self.inputs.push_back(TerminalInput::Ground { is_light });
+                }
+                TerminalMessage::Ready => {
+                    self.pace.answered(now);
+                    if !self.pace.is_waiting() {
+                        self.unseen = None;
+                    }
+                }
             }
         }
     }
 
+    fn take_event(&mut self, event: Event) {
+        // Whether the terminal does not show yet what there is to answer.
+        let patience = self.pace.patience();
+        let is_ahead = self
+            .unseen
+            .is_some_and(|written| written.elapsed() < patience);
+        self.inputs.push_back(if is_ahead {
+            TerminalInput::TypedAhead(event)
+        } else {
+            TerminalInput::Event(event)
+        });
+    }
+
+    /// The size to draw in; says so where the terminal is larger.
+    fn sane_size(&mut self, explorer: &mut Explorer) -> (u16, u16) {
+        let size = self.device.size();
+        let sane = (size.0.min(LARGEST_SCREEN.0), size.1.min(LARGEST_SCREEN.1));
+        if sane != size && self.too_large != Some(size) {
+            explorer.tell(&format!(
+                "The terminal says that it has {} columns and {} rows: {} and {} of them are drawn.",
+                size.0, size.1, sane.0, sane.1
+            ));
+        }
+        self.too_large = (sane != size).then_some(size);
+        sane
+    }
+
     /// The next frame: what brings the terminal from what it shows to the explorer's state.
     fn compose(&mut self, explorer: &mut Explorer) {
-        let (cols, rows) = self.device.size();
+        let (cols, rows) = self.sane_size(explorer);
         self.canvas.resize(Rect::new(0, 0, cols, rows));
         self.canvas.reset();
         explorer.set_coarse(self.detail.draws(Instant::now()));
@@ -242,12 +292,14 @@ impl Session {
     }
 }
 
-impl Link for Session {
-    fn waker(&self) -> Waker {
+impl Session {
+    /// What ends [`Session::wait`] from any thread, and makes [`Session::next`] give [`TerminalInput::Woken`].
+    pub(super) fn waker(&self) -> Waker {
         self.inbox.waker()
     }
 
-    fn wait(&mut self, due: bool) -> io::Result<()> {
+    /// Waits for input and, if a frame is `due`, for room for it.
+    pub(super) fn wait(&mut self, due: bool) -> io::Result<()> {
         if !self.inputs.is_empty() {
             return Ok(());
         }
@@ -260,23 +312,25 @@ impl Link for Session {
         } else {
             detail.map(|at| room.map_or(at, |room| room.max(at)))
         };
-        let until = [due, self.settles].into_iter().flatten().min();
+        let until = [due, self.gives_up].into_iter().flatten().min();
         self.look(until.map(|at| at.saturating_duration_since(now)))
     }
 
-    fn next(&mut self) -> io::Result<Option<Input>> {
+    /// What came in next, if anything has.
+    pub(super) fn next(&mut self) -> io::Result<Option<TerminalInput>> {
         if self.inputs.is_empty() {
             self.look(Some(Duration::ZERO))?;
         }
         let now = Instant::now();
         let is_idle = self.inputs.is_empty() && self.has_room(now);
         if is_idle && self.detail.rests(now) {
-            return Ok(Some(Input::Redraw));
+            return Ok(Some(TerminalInput::Redraw));
         }
         Ok(self.inputs.pop_front())
     }
 
-    fn is_ready(&mut self) -> bool {
+    /// Whether a frame would go out at once.
+    pub(super) fn is_ready(&mut self) -> bool {
         let now = Instant::now();
         let is_ready = self.has_room(now);
         if !is_ready {
@@ -285,37 +339,50 @@ impl Link for Session {
         is_ready
     }
 
-    fn show(&mut self, explorer: &mut Explorer) -> io::Result<()> {
+    /// Brings the screen up to date.
+    pub(super) fn show(&mut self, explorer: &mut Explorer) -> io::Result<()> {
         self.compose(explorer);
         if self.frame.is_empty() {
             return Ok(());
         }
-        let bytes = self.frame.len();
-        if self.pace.asks(bytes) {
+        let (bytes, now) = (self.frame.len(), Instant::now());
+        self.unseen = explorer.is_asking().then_some(now);
+        // Answered or not: the status query that follows is answered after it.
+        let asks_ground = !self.asked_ground && explorer.options().follows_ground;
+        if asks_ground && self.pace.can_ask() && clipboard::swallows_strings() {
+            self.frame.extend_from_slice(ASK_GROUND);
+            self.asked_ground = true;
+        }
+        let asks = self.pace.asks(bytes) || self.unseen.is_some() && self.pace.can_ask();
+        if asks {
             self.frame.extend_from_slice(QUERY);
         }
-        self.pace.wrote(bytes, Instant::now());
+        self.pace.wrote(bytes, asks, now);
         self.flush()
     }
 
-    fn copy(&mut self, text: &str) -> io::Result<()> {
-        if self.standing == Standing::Ours && clipboard::is_worth_trying() {
+    /// Puts text into the clipboard of the person, if their terminal does such things.
+    pub(super) fn copy(&mut self, text: &str) -> io::Result<()> {
+        if self.standing == Standing::Ours && clipboard::swallows_strings() {
             self.frame.extend(clipboard::set(text).bytes());
             self.flush()?;
         }
         Ok(())
     }
 
-    fn forget(&mut self) {
+    /// Takes the screen to show nobody knows what.
+    pub(super) fn forget(&mut self) {
         self.painter.forget();
     }
 
-    fn suspend(&mut self) -> bool {
+    /// Stops the explorer, for its shell to take over; false if nobody would let it go on.
+    pub(super) fn suspend() -> bool {
         // The whole job stops, as it would if the terminal had made a signal of the key.
         has_job_control() && stop_job()
     }
 
-    fn stop(&mut self) -> io::Result<()> {
+    /// Gives the terminal back and stops, as [`TerminalInput::Stop`] asks.
+    pub(super) fn stop(&mut self) -> io::Result<()> {
         self.give_back();
         stop_process()
     }

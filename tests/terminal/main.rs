@@ -9,6 +9,7 @@ use std::time::Duration;
 
 use pty::{Pty, Start};
 use rayscope::lab::BenchQueue;
+use rayscope::terminal::Session;
 use rustix::process::Signal;
 
 #[test]
@@ -161,6 +162,10 @@ fn a_signal_ends_it_and_the_status_says_which() {
         (Signal::INT, 130),
         (Signal::QUIT, 131),
         (Signal::TERM, 143),
+        (Signal::USR1, 138),
+        (Signal::USR2, 140),
+        (Signal::ALARM, 142),
+        (Signal::XCPU, 152),
     ] {
         let mut pty = Pty::explorer(Start::default());
         pty.is_sent(signal);
@@ -171,6 +176,108 @@ fn a_signal_ends_it_and_the_status_says_which() {
     pty.sends("\x03");
     assert_eq!(pty.ends(), 130);
     pty.is_restored();
+}
+
+#[test]
+fn a_limit_to_the_size_of_files_fails_a_save_and_nothing_else() {
+    let limited = Start::default().through("ulimit -f 0; exec \"$@\"");
+    let mut pty = Pty::explorer(limited);
+    pty.sends("x:save-as mine.toml\r");
+    pty.waits_to_show("not saved");
+    pty.sends(":quit!\r");
+    assert_eq!(pty.ends(), 0);
+    pty.is_restored();
+    let home = fs::read_dir(pty.home().path()).expect("the folder");
+    let names = home.flatten().map(|entry| entry.file_name());
+    let litter: Vec<_> = names
+        .filter(|name| name.to_string_lossy().starts_with(".rayscope-"))
+        .collect();
+    assert!(litter.is_empty(), "{litter:?}");
+}
+
+/// What a panic says, and the variable under which a test panics on purpose.
+const PANIC: &str = "this is what the panic says";
+const PANICS: &str = "RAYSCOPE_TEST_PANICS";
+
+#[test]
+fn a_panic_is_read_on_the_screen_that_was_there_before() {
+    let this = std::env::current_exe().expect("this program");
+    let line = format!(
+        "echo precious; exec {} --exact panics --ignored --nocapture",
+        this.display()
+    );
+    let mut pty = Start::default().through(&line).env(PANICS, "1").open();
+    pty.ends();
+    assert!(pty.shows("precious") && pty.shows(PANIC), "{}", pty.text());
+    assert_eq!(pty.occurrences(b"\x1b[?1049l"), 1, "restored once");
+    pty.is_restored();
+}
+
+/// Not a test, but what the one above starts.
+#[test]
+#[ignore = "it is started by another"]
+fn panics() {
+    if std::env::var_os(PANICS).is_some() {
+        let _session = Session::enter().expect("the terminal");
+        panic!("{PANIC}");
+    }
+}
+
+#[test]
+fn a_terminal_of_any_size_is_drawn_as_far_as_is_sane() {
+    let mut pty = Pty::explorer(Start::default());
+    pty.claims(20_000, 20_000);
+    pty.waits_for("the sentence", |p| p.occurrences(b"20000 columns") > 0);
+    let status = fs::read_to_string(format!("/proc/{}/status", pty.pid()));
+    if let Ok(status) = status {
+        let peak = status.lines().find_map(|l| l.strip_prefix("VmHWM:"));
+        let peak = peak.expect("a peak").trim().trim_end_matches(" kB");
+        let peak: u64 = peak.parse().expect("a number");
+        assert!(peak < 300_000, "{peak} kB");
+    }
+    pty.resizes(80, 24);
+    pty.sends("q");
+    assert_eq!(pty.ends(), 0);
+    pty.is_restored();
+}
+
+#[test]
+fn what_was_typed_before_the_first_frame_deletes_no_work() {
+    let mut pty = Pty::explorer(Start::default());
+    pty.sends("x");
+    pty.waits_to_show("unsaved");
+    let home = pty.home();
+    assert_eq!(pty.hangs_up(), 129);
+    let mut pty = Start::default().home(&home).open();
+    pty.sends("D");
+    pty.waits_to_show("Unsaved work of");
+    pty.sends("nq");
+    assert_eq!(pty.ends(), 0);
+    let state = home.path().join(".local/state/rayscope");
+    assert_eq!(fs::read_dir(&state).expect("the folder").count(), 1);
+}
+
+#[test]
+fn the_colours_follow_the_ground_that_the_terminal_tells() {
+    let mut pty = Pty::explorer(Start::default());
+    assert_eq!(pty.occurrences(b"\x1b]11;?\x1b\\"), 1, "asked once");
+    pty.sends("?");
+    pty.waits_to_show("either (the ground is not known");
+    for (answer, theme) in [
+        ("\x1b]11;rgb:ffff/ffff/ffff\x1b\\", "light"),
+        ("\x1b]11;rgb:0000/0000/0000\x07", "dark"),
+        ("\x1b[?997;2n", "light"),
+    ] {
+        pty.sends(answer);
+        pty.waits_to_show(&format!("{theme} (the terminal says so)"));
+    }
+    pty.sends("\x1bq");
+    assert_eq!(pty.ends(), 0);
+    let chosen = Start::default().args(&["--theme", "dark"]);
+    let mut pty = Pty::explorer(chosen);
+    pty.sends("q");
+    assert_eq!(pty.ends(), 0);
+    assert_eq!(pty.occurrences(b"\x1b]11;?"), 0);
 }
 
 #[test]
@@ -302,7 +409,7 @@ fn a_terminal_that_answers_no_query_works_all_the_same() {
     pty.waits_to_show("(5, 5)");
     pty.sends("q");
     pty.waits_to_show("Unsaved");
-    pty.sends("D");
+    pty.sends("\x1b:quit!\r");
     assert_eq!(pty.ends(), 0);
     pty.is_restored();
 }

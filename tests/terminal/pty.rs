@@ -268,6 +268,11 @@ impl Pty {
         self.screen.screen_mut().set_size(rows, cols);
     }
 
+    /// Tells the program a size without having it.
+    pub fn claims(&self, cols: u16, rows: u16) {
+        self.master.resize(pty_size((cols, rows))).expect("a size");
+    }
+
     pub fn is_sent(&self, signal: Signal) {
         let pid = Pid::from_raw(self.pid().cast_signed()).expect("a process");
         kill_process(pid, signal).expect("the signal is sent");

@@ -16,6 +16,8 @@ pub enum Palette {
     Dark,
     /// Dark text on the terminal's own light ground.
     Light,
+    /// Middling colours that can be read on both grounds, until it is known which it is.
+    Either,
     /// White and bright colours on black, whatever the terminal's ground is; nothing is faint.
     HighContrast,
     /// No colours; bold, faint and reversed tell things apart.
@@ -23,7 +25,7 @@ pub enum Palette {
 }
 
 impl Palette {
-    /// All themes, in the order of the key that turns them.
+    /// All themes that can be chosen, in the order of the key that turns them.
     pub const ALL: [Self; 4] = [
         Self::Dark,
         Self::Light,
@@ -36,6 +38,7 @@ impl Palette {
         match self {
             Self::Dark => "dark",
             Self::Light => "light",
+            Self::Either => "either",
             Self::HighContrast => "high-contrast",
             Self::Monochrome => "monochrome",
         }
@@ -46,6 +49,7 @@ impl Palette {
         match self {
             Self::Dark => "for a dark ground",
             Self::Light => "for a light ground",
+            Self::Either => "for either ground",
             Self::HighContrast => "white on black, nothing faint",
             Self::Monochrome => "no colours",
         }
@@ -74,6 +78,8 @@ impl Theme {
             (_, ColorDepth::None) | (Palette::Monochrome, _) => Style::new(),
             (Palette::Light, ColorDepth::Ansi16) => Style::new().fg(dark_of_16(color)),
             (Palette::Light, _) => Style::new().fg(dark_of_256(color)),
+            (Palette::Either, ColorDepth::Ansi16) => Style::new().fg(middling_of_16(color)),
+            (Palette::Either, _) => Style::new().fg(middling_of_256(color)),
             (Palette::HighContrast, _) => Style::new().fg(bright(color)),
             (Palette::Dark, _) => Style::new().fg(color),
         }
@@ -233,6 +239,30 @@ const fn dark_of_16(color: Color) -> Color {
     }
 }
 
+/// The colour of xterm's 256 that can be read on black and on white: about 4 to 1.
+const fn middling_of_256(color: Color) -> Color {
+    Color::Indexed(match color {
+        Color::Yellow | Color::LightYellow => 130,
+        Color::Green | Color::LightGreen => 28,
+        Color::Cyan | Color::LightCyan => 30,
+        Color::Blue | Color::LightBlue => 62,
+        Color::Magenta | Color::LightMagenta => 133,
+        Color::Red | Color::LightRed => 196,
+        _ => return color,
+    })
+}
+
+/// The same among the sixteen, of which green, yellow and cyan are too light on white.
+const fn middling_of_16(color: Color) -> Color {
+    match color {
+        Color::Yellow | Color::LightYellow | Color::LightMagenta => Color::Magenta,
+        Color::Cyan | Color::LightCyan | Color::Blue => Color::LightBlue,
+        Color::Green | Color::LightGreen => Color::Reset,
+        Color::LightRed => Color::Red,
+        other => other,
+    }
+}
+
 /// The bright one of a pair.
 const fn bright(color: Color) -> Color {
     match color {
@@ -351,6 +381,9 @@ mod tests {
             (Palette::Dark, ColorDepth::Ansi256, Color::Black, 4.0),
             (Palette::Light, ColorDepth::Ansi256, Color::White, 5.0),
             (Palette::Light, ColorDepth::True, Color::White, 5.0),
+            (Palette::Either, ColorDepth::Ansi256, Color::Black, 3.9),
+            (Palette::Either, ColorDepth::Ansi256, Color::White, 3.9),
+            (Palette::Either, ColorDepth::True, Color::White, 3.9),
             // Where the sixteen are the terminal's own, xterm's stand for them.
             (
                 Palette::HighContrast,

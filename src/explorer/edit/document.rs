@@ -239,6 +239,11 @@ impl Document {
         true
     }
 
+    /// Whether there is nothing to undo.
+    pub const fn is_as_opened(&self) -> bool {
+        self.past.is_empty()
+    }
+
     /// Does again what was undone last; false if there is nothing.
     pub fn redo(&mut self) -> bool {
         let Some(entry) = self.future.pop() else {

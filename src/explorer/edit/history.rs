@@ -3,12 +3,18 @@
 use crate::explorer::action::Action;
 use crate::explorer::edit::document::{Change, Document};
 use crate::explorer::edit::spheres;
+use crate::explorer::files::keep;
 use crate::explorer::state::State;
 
 /// Does an action on the history; false if it is another's.
 pub(crate) fn act(action: Action, state: &mut State) -> bool {
     match action {
-        Action::Undo => travel(state, Document::undo, "Nothing to undo."),
+        Action::Undo => {
+            let nothing = state.work.document.is_as_opened();
+            if !(nothing && keep::bring_back_discarded(state)) {
+                travel(state, Document::undo, "Nothing to undo.");
+            }
+        }
         Action::Redo => travel(state, Document::redo, "Nothing to redo."),
         Action::Reset => reset(state),
         _ => return false,

@@ -4,6 +4,7 @@ use std::fs::{self, File, Metadata, OpenOptions};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use tempfile::NamedTempFile;
 
@@ -43,6 +44,25 @@ fn digest(bytes: &[u8]) -> u64 {
     let mut hasher = DefaultHasher::new();
     bytes.hash(&mut hasher);
     hasher.finish()
+}
+
+/// What names of files start with that are being written.
+pub(crate) const TEMPORARY: &str = ".rayscope-";
+/// Nobody writes for so long.
+const OLD: Duration = Duration::from_secs(600);
+
+/// Removes what processes left that were killed while they wrote.
+pub(crate) fn remove_orphans(folder: &Path) {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    for entry in entries {
+        let is_ours = entry.file_name().to_string_lossy().starts_with(TEMPORARY);
+        let written = entry.metadata().and_then(|m| m.modified()).ok();
+        let age = written.and_then(|at| at.elapsed().ok());
+        if is_ours && age.is_some_and(|age| age > OLD) {
+            // It may be another person's, and stays then.
+            let _ = fs::remove_file(entry.path());
+        }
+    }
 }
 
 /// What a file that is saved may take the place of.
@@ -102,6 +122,7 @@ pub fn save(path: &Path, text: &str, over: Over<'_>) -> Result<Stamp, Unsaved> {
 
 fn write(path: &Path, bytes: &[u8], over: Over<'_>) -> Result<(), Unsaved> {
     let target = followed(path)?;
+    remove_orphans(folder_of(&target));
     loop {
         let there = match fs::metadata(&target) {
             Ok(there) => there,
@@ -174,7 +195,7 @@ fn create(target: &Path, bytes: &[u8]) -> io::Result<()> {
 
 fn builder() -> tempfile::Builder<'static, 'static> {
     let mut builder = tempfile::Builder::new();
-    builder.prefix(".rayscope-");
+    builder.prefix(TEMPORARY);
     builder
 }
 
@@ -278,6 +299,23 @@ pub fn starting_with(folder: &Path, head: &str, start: &str) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_a_killed_process_left_goes_with_the_next_save() {
+        let folder = tempfile::tempdir().unwrap();
+        let [old, new, mine] =
+            [".rayscope-old", ".rayscope-new", ".mine"].map(|name| folder.path().join(name));
+        for path in [&old, &new, &mine] {
+            fs::write(path, "half a sce").unwrap();
+        }
+        let long_ago = std::time::SystemTime::now() - 2 * OLD;
+        for path in [&old, &mine] {
+            let file = File::options().write(true).open(path).unwrap();
+            file.set_modified(long_ago).unwrap();
+        }
+        save(&folder.path().join("a.toml"), "one", Over::Nothing).unwrap();
+        assert_eq!([&old, &new, &mine].map(|p| p.exists()), [false, true, true]);
+    }
 
     /// What is in a folder.
     fn names(folder: &Path) -> Vec<String> {

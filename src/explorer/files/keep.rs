@@ -1,14 +1,14 @@
 //! Keeping unsaved work when it can't be asked about, and offering it when the same scene is opened
 //! again.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use crate::explorer::dialog::{Confirmation, in_words};
 use crate::explorer::edit::document::Change;
 use crate::explorer::edit::spheres;
-use crate::explorer::files::rescue::{Rescue, identity, owner};
+use crate::explorer::files::disk::remove_orphans;
+use crate::explorer::files::rescue::{Rescue, age, identity, owner};
 use crate::explorer::link::command_line;
 use crate::explorer::state::State;
 use crate::scene::{Builtin, Scene, Source};
@@ -20,7 +20,9 @@ pub(crate) fn keep_in(state: &mut State, folder: &Path, source: &Source) {
         folder: folder.to_owned(),
         scene: identity(source),
         taken: None,
+        discarded: state.rescue.take().map_or_else(Vec::new, |r| r.discarded),
     };
+    remove_orphans(folder);
     if let Some((path, age)) = rescue.newest(|scene| scene == rescue.scene) {
         state.ask(Confirmation::Recover { path, age });
     } else if let Some((path, age)) = rescue.newest(|_| true) {
@@ -32,6 +34,9 @@ pub(crate) fn keep_in(state: &mut State, folder: &Path, source: &Source) {
 /// When the explorer is over and the tour is put away: where unsaved work was kept, if there was any that
 /// the person has not given up.
 pub(crate) fn finish(state: &mut State) -> Result<Option<PathBuf>, String> {
+    if let (Some(_), Some(rescue)) = (state.ended, &mut state.rescue) {
+        rescue.remove_discarded();
+    }
     if !state.is_changed() {
         return Ok(None);
     }
@@ -71,12 +76,23 @@ pub(crate) fn recover(state: &mut State, path: &Path) {
     }
 }
 
-/// Deletes kept work.
-pub(crate) fn discard(state: &mut State, path: &Path) {
-    match fs::remove_file(path) {
-        Ok(()) => state.say("It is deleted."),
-        Err(e) => state.warn(format!("{}: not deleted: {e}", path.display())),
+/// Deletes kept work as soon as the person leaves.
+pub(crate) fn discard(state: &mut State, path: PathBuf) {
+    if let Some(rescue) = &mut state.rescue {
+        rescue.discarded.push(path);
+        state.say("It is deleted when you leave. Until then u brings it back.");
     }
+}
+
+/// Offers again what was discarded last; false if there is none.
+pub(crate) fn bring_back_discarded(state: &mut State) -> bool {
+    let discarded = state.rescue.as_mut().and_then(|r| r.discarded.pop());
+    let Some(path) = discarded else {
+        return false;
+    };
+    let age = age(&path).unwrap_or_default();
+    state.ask(Confirmation::Recover { path, age });
+    true
 }
 
 /// What was kept is saved now; from here on unsaved work belongs to that file.
@@ -103,6 +119,8 @@ fn elsewhere(path: &Path, age: Duration) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 
     use super::*;
@@ -121,8 +139,14 @@ mod tests {
     fn press(explorer: &mut Explorer, keys: &str) {
         for c in keys.chars() {
             let key = KeyEvent::new(KeyCode::Char(c), KeyModifiers::NONE);
+            explorer.prepare(80, 24);
             explorer.update(&Event::Key(key));
         }
+    }
+
+    fn asks(explorer: &Explorer) -> bool {
+        let asked = explorer.modes.last().and_then(Mode::question);
+        matches!(asked, Some(Confirmation::Recover { .. }))
     }
 
     fn files(folder: &Path) -> usize {
@@ -205,7 +229,41 @@ mod tests {
         assert_eq!(files(folder), 1, "d orbits, and deletes nothing");
         let mut deleted = opened(folder, "trio");
         press(&mut deleted, "D");
+        assert!(!asks(&deleted));
+        press(&mut deleted, "u");
+        assert!(asks(&deleted));
+        press(&mut deleted, "D");
+        assert_eq!(files(folder), 1, "until the person leaves");
+        press(&mut deleted, "q");
+        deleted.finish().unwrap();
         assert_eq!(files(folder), 0);
+    }
+
+    #[test]
+    fn what_was_typed_before_the_question_was_shown_deletes_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        let mut lost = opened(folder, "trio");
+        press(&mut lost, "x");
+        lost.finish().unwrap();
+        let key = |c| Event::Key(KeyEvent::new(KeyCode::Char(c), KeyModifiers::NONE));
+        let mut hasty = opened(folder, "trio");
+        hasty.update(&key('D'));
+        assert!(asks(&hasty), "nothing was drawn yet");
+        hasty.prepare(80, 24);
+        hasty.update_typed_ahead(&key('D'));
+        assert!(asks(&hasty), "the terminal had not shown it");
+        hasty.prepare(80, 24);
+        hasty.update(&key('D'));
+        assert!(!asks(&hasty));
+
+        let mut hasty = opened(folder, "trio");
+        press(&mut hasty, "nx");
+        hasty.update(&key('q'));
+        hasty.update(&key('D'));
+        assert_eq!(hasty.ended(), None);
+        press(&mut hasty, "D");
+        assert_eq!(hasty.ended(), Some(0));
     }
 
     #[test]

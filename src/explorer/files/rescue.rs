@@ -7,6 +7,7 @@ use std::process;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
 use crate::door::Expected;
+use crate::explorer::files::disk::TEMPORARY;
 use crate::scene::{LARGEST_FILE, Source};
 use crate::system;
 
@@ -27,6 +28,8 @@ pub(crate) struct Rescue {
     pub(crate) scene: String,
     /// The file that the work at hand was taken from.
     pub(crate) taken: Option<PathBuf>,
+    /// Files that go when the person leaves.
+    pub(crate) discarded: Vec<PathBuf>,
 }
 
 impl Rescue {
@@ -35,7 +38,7 @@ impl Rescue {
         system::create_private_folder(&self.folder)?;
         // A temporary file is its owner's alone from the start.
         let mut file = tempfile::Builder::new()
-            .prefix(".rayscope-")
+            .prefix(TEMPORARY)
             .tempfile_in(&self.folder)?;
         write!(
             file,
@@ -58,11 +61,19 @@ impl Rescue {
             .map(|entry| entry.path())
             .filter(|path| path.extension().is_some_and(|e| e == "toml"))
             .filter(|path| owner(path).is_some_and(|scene| is_wanted(&scene)))
+            .filter(|path| !self.discarded.contains(path))
             .filter_map(|path| {
-                let written = fs::metadata(&path).ok()?.modified().ok()?;
-                Some((path, written.elapsed().unwrap_or_default()))
+                let age = age(&path)?;
+                Some((path, age))
             })
             .min_by_key(|(_, age)| *age)
+    }
+
+    pub(crate) fn remove_discarded(&mut self) {
+        for path in self.discarded.drain(..) {
+            // One that can't be deleted is offered once more, which loses nothing.
+            let _ = fs::remove_file(path);
+        }
     }
 
     pub(crate) fn forget_taken(&mut self) {
@@ -71,6 +82,12 @@ impl Rescue {
             let _ = fs::remove_file(path);
         }
     }
+}
+
+/// How long ago a file was written.
+pub(crate) fn age(path: &Path) -> Option<Duration> {
+    let written = fs::metadata(path).ok()?.modified().ok()?;
+    Some(written.elapsed().unwrap_or_default())
 }
 
 /// The scene that a kept file belongs to.

@@ -59,7 +59,9 @@ pub(crate) fn replace(state: &mut State, scene: Scene, source: &Source) {
     state.at.view = before.at.view;
     state.workplace = before.workplace;
     if let Some(rescue) = before.rescue {
-        keep::keep_in(state, &rescue.folder, source);
+        let folder = rescue.folder.clone();
+        state.rescue = Some(rescue);
+        keep::keep_in(state, &folder, source);
     }
     let about = state.scene().about.clone().unwrap_or_default();
     state.say(format!("{}. {about}", state.scene().name));

@@ -35,7 +35,10 @@ impl Mode {
             Dialog::Case(form) => Self::Case(ExportCase { form }),
             Dialog::Prompt(purpose, text) => Self::Prompt(Prompt::new(purpose, &text)),
             Dialog::Form => Self::Form(NumbersForm::default()),
-            Dialog::Ask(question) => Self::Asking(Asking { question }),
+            Dialog::Ask(question) => Self::Asking(Asking {
+                question,
+                is_shown: false,
+            }),
         }
     }
 
@@ -62,7 +65,7 @@ impl Mode {
     /// The question that waits for an answer.
     pub(crate) const fn question(&self) -> Option<&Confirmation> {
         match self {
-            Self::Asking(Asking { question }) => Some(question),
+            Self::Asking(Asking { question, .. }) => Some(question),
             _ => None,
         }
     }

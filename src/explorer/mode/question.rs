@@ -15,11 +15,26 @@ use crate::explorer::state::State;
 #[derive(Debug, PartialEq)]
 pub(crate) struct Asking {
     pub(crate) question: Confirmation,
+    /// Whether it was on the screen when the next key was pressed, as far as is known.
+    pub(crate) is_shown: bool,
+}
+
+impl Confirmation {
+    /// Whether something is lost by this answer.
+    fn loses_by(&self, key: Key) -> bool {
+        match self {
+            Self::Quit | Self::Recover { .. } => key.is("D"),
+            Self::Open(_) | Self::Overwrite { .. } => key.is("o"),
+            Self::Tour => false,
+        }
+    }
 }
 
 impl Overlay for Asking {
     fn press(&mut self, key: Key, state: &mut State) -> After {
         match &self.question {
+            // Nobody can have meant it who had not read it.
+            question if question.loses_by(key) && !self.is_shown => After::Stay,
             Confirmation::Quit if key.is("s") => After::Do(Command::SaveAndQuit),
             // Another key than the one that asked: it may be held down.
             Confirmation::Quit if key.is("D") => After::Do(Command::QuitNow),
