@@ -9,7 +9,7 @@ use std::fs::{self, File, Metadata, OpenOptions};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use crate::system::file::{kind_of_special, open_without_waiting};
+use crate::system::file::{kind_of_special, noted_home, open_without_waiting};
 
 /// The name of standard input in the place of a file.
 const STANDARD_INPUT: &str = "-";
@@ -110,7 +110,7 @@ impl Expected {
     /// A file to be read bit by bit; `-` is standard input.
     pub fn stream(self, path: &Path) -> Result<Box<dyn Read>, FileError> {
         if is_standard_input(path) {
-            return Ok(Box::new(Bounded::new(io::stdin().lock(), self.most)));
+            return Ok(Box::new(BoundedInput::new(io::stdin().lock(), self.most)));
         }
         match self.open(path) {
             Ok(file) => Ok(Box::new(file)),
@@ -122,7 +122,7 @@ impl Expected {
     }
 
     /// A regular file, open for reading.
-    fn open(self, path: &Path) -> Result<Bounded<File>, FileError> {
+    fn open(self, path: &Path) -> Result<BoundedInput<File>, FileError> {
         let opened = regular(File::options().read(true), path);
         let opened = opened.map_err(|refusal| match refusal {
             Refusal::Special(kind) => self.found(path, kind),
@@ -130,7 +130,7 @@ impl Expected {
         })?;
         match opened.metadata() {
             Ok(found) if found.len() > self.most => Err(self.too_large(path)),
-            Ok(_) => Ok(Bounded::new(opened, self.most)),
+            Ok(_) => Ok(BoundedInput::new(opened, self.most)),
             Err(error) => Err(self.refusal(path, &error)),
         }
     }
@@ -169,18 +169,18 @@ impl Expected {
 }
 
 /// Input that fails once more than its bound has been read.
-struct Bounded<R> {
+struct BoundedInput<R> {
     input: R,
     left: u64,
 }
 
-impl<R> Bounded<R> {
+impl<R> BoundedInput<R> {
     const fn new(input: R, most: u64) -> Self {
         Self { input, left: most }
     }
 }
 
-impl<R: Read> Read for Bounded<R> {
+impl<R: Read> Read for BoundedInput<R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         if self.left == 0 {
             return match self.input.read(&mut [0])? {
@@ -274,9 +274,12 @@ pub fn typed(name: &str) -> String {
     home.map_or_else(|| name.to_owned(), |home| home + rest)
 }
 
-/// The home folder, if there is a usable one.
+/// The home folder: that of the environment, or where this names none, that which the system has
+/// noted.
 pub fn home() -> Option<PathBuf> {
-    env::home_dir().filter(|home| home.is_absolute())
+    let is_usable = |home: &PathBuf| home.is_absolute();
+    let home = env::home_dir().filter(is_usable);
+    home.or_else(|| noted_home().filter(is_usable))
 }
 
 #[cfg(test)]
@@ -292,7 +295,7 @@ mod tests {
     fn what_grows_while_it_is_read_is_held_to_its_bound() {
         let read = |input: &mut dyn Read| {
             let mut bytes = Vec::new();
-            let ended = Bounded::new(input, SMALL.most).read_to_end(&mut bytes);
+            let ended = BoundedInput::new(input, SMALL.most).read_to_end(&mut bytes);
             (bytes.len(), ended.map_err(|e| e.kind()))
         };
         assert_eq!(read(&mut &[b'x'; 10][..]), (10, Ok(10)));

@@ -4,13 +4,14 @@ use std::env;
 use std::ffi::OsString;
 use std::io;
 use std::panic::{self, AssertUnwindSafe};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::appearance::{Appearance, default_style, is_anybody_present};
 use super::place::PlaceFlags;
 use super::{Failure, Outcome, complain};
+use crate::door::{self, Expected};
 use crate::explorer::{Explorer, Options, Setting, Workplace};
 use crate::scene::{Scene, Source};
 use crate::terminal::{self, Session};
@@ -33,7 +34,7 @@ pub(super) struct Explore {
 pub(super) fn run(arguments: &Explore) -> Outcome {
     let appearance = &arguments.appearance;
     let (mut explorer, source) = opened(arguments, |options| appearance.fitted(options))?;
-    explorer.work_in(Workplace::of_process(state_folder()), &source);
+    explorer.work_in(workplace(), &source);
     converse(&mut explorer, appearance)
 }
 
@@ -110,12 +111,31 @@ fn failed(error: &io::Error) -> Failure {
     Failure::invalid(format_args!("the terminal failed: {error}"))
 }
 
+/// Where this process works.
+pub(super) fn workplace() -> Workplace {
+    Workplace::of_process(state_folder()).of_person(person())
+}
+
 /// Where programs of this person keep what should outlive them, as the XDG base directories have it.
 fn state_folder() -> Option<PathBuf> {
     let folder = |name| {
         let path = PathBuf::from(env::var_os(name)?);
         path.is_absolute().then_some(path)
     };
-    let state = folder("XDG_STATE_HOME").or_else(|| Some(folder("HOME")?.join(".local/state")))?;
+    let state = folder("XDG_STATE_HOME").or_else(|| Some(door::home()?.join(".local/state")))?;
     Some(state.join("rayscope"))
+}
+
+/// Who of those that share an account this is, by the key that they came in with: sshd names the
+/// file in which it says so if it is set up to (`ExposeAuthInfo yes`).
+fn person() -> String {
+    const KEYS: Expected = Expected {
+        what: "a list of keys",
+        most: 1 << 20,
+    };
+    let keys = env::var_os("SSH_USER_AUTH").and_then(|path| KEYS.text(Path::new(&path)).ok());
+    keys.unwrap_or_default()
+        .split_whitespace()
+        .collect::<Vec<_>>()
+        .join(" ")
 }

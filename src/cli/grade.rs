@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::failure::{DONE, INVALID};
 use super::output::Complaints;
-use super::rows::{Columns, CsvFile, CsvRow, unreadable};
+use super::rows::{CsvColumns, CsvFile, CsvRow, unreadable};
 use super::{Failure, Outcome, choice, write_out};
 use crate::door::{Expected, shown};
 use crate::lab::Problem;
@@ -92,7 +92,10 @@ fn rows_of(path: &Path) -> Result<ClaimedRows, Failure> {
     Ok(rows)
 }
 
-fn parse(row: &CsvRow, columns: &Columns<{ COLUMNS.len() }>) -> Result<(Problem, Claim), String> {
+fn parse(
+    row: &CsvRow,
+    columns: &CsvColumns<{ COLUMNS.len() }>,
+) -> Result<(Problem, Claim), String> {
     let problem = columns.problem(row)?;
     let field = |i: usize| columns.field(row, i).unwrap_or_default();
     let class = class(&field(10))?;

@@ -11,7 +11,7 @@ use super::appearance::Appearance;
 use super::place::PlaceFlags;
 use super::{Failure, Outcome, explore, from_one, write_out};
 use crate::explorer::tour::{self, Chapter};
-use crate::explorer::{Explorer, Options, Workplace};
+use crate::explorer::{Explorer, Options};
 use crate::scene::{Builtin, Source};
 
 /// Walk through the tutorial, page by page, on live scenes
@@ -61,7 +61,7 @@ pub(super) fn opened(
     let own = Builtin::default();
     explore::set_out(&arguments.place.settings, || {
         let mut explorer = Explorer::new(own.scene(), &Source::Builtin(own), options);
-        explorer.work_in(Workplace::of_process(None), &Source::Builtin(own));
+        explorer.tour_in(explore::workplace());
         explorer.start_tour(Arc::clone(&chapters), at, page - 1);
         explorer
     })

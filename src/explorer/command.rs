@@ -24,8 +24,8 @@ pub enum Command {
     OpenNow(String),
     /// Take up work that was kept.
     Recover(PathBuf),
-    /// Delete work that was kept.
-    Discard(PathBuf),
+    /// Delete the kept work that is offered.
+    Discard,
     /// Write the scene over what this file holds.
     Overwrite(PathBuf),
     /// Open the tour although there are unsaved changes.

@@ -9,6 +9,7 @@ use crate::explain::{self, Digits, Line, Reading, StepLook, Subject};
 use crate::explorer::action::{Action, Group};
 use crate::explorer::command::{self, Command, with_argument};
 use crate::explorer::dialog::{Confirmation, Purpose};
+use crate::explorer::files::keep;
 use crate::explorer::key::Key;
 use crate::explorer::mode::form::numbers;
 use crate::explorer::mode::{ExportCase, Mode, export_case};
@@ -103,7 +104,12 @@ impl Explorer {
             self.look();
         }
         let refused = self.state.message.as_ref().is_some_and(|m| m.warning);
-        let news = self.news(&before, told.is_some());
+        // Nobody wakes whoever waits for the next line.
+        let said = self.state.message.take();
+        keep::write_down_between_lines(&mut self.state);
+        let warning = std::mem::replace(&mut self.state.message, said);
+        let mut news = self.news(&before, told.is_some());
+        news += &warning.map_or(String::new(), |warning| warning.text + "\n");
         self.said(&(told.unwrap_or_default() + &news), refused)
     }
 
@@ -186,6 +192,9 @@ impl Explorer {
     /// Takes a line as the answer to the question that is open, if it can be one.
     fn is_answer(&mut self, line: &str) -> bool {
         let Some(key) = Key::parse(line) else {
+            if matches!(self.question(), Some(Confirmation::Recover { .. })) {
+                keep::put_off(&mut self.state);
+            }
             self.put_off();
             return false;
         };

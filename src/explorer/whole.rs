@@ -131,6 +131,12 @@ impl Explorer {
 impl Explorer {
     /// Lets an event change the state; false if nothing on the screen can have changed.
     pub fn update(&mut self, event: &Event) -> bool {
+        let is_seen = self.take(event);
+        keep::note_changes(&mut self.state, &self.panels.error.waker);
+        is_seen
+    }
+
+    fn take(&mut self, event: &Event) -> bool {
         match event {
             Event::Key(event) if event.kind != KeyEventKind::Release => {
                 self.state.message = None;
@@ -235,7 +241,8 @@ impl Explorer {
 
     /// Takes what threads have finished; false if nothing on the screen can have changed.
     pub fn catch_up(&mut self) -> bool {
-        self.panels.error.catch_up(&mut self.state)
+        let is_said = keep::write_down_if_due(&mut self.state, &self.panels.error.waker);
+        self.panels.error.catch_up(&mut self.state) || is_said
     }
 
     /// Calls a measurement off before this process stops.
@@ -246,12 +253,14 @@ impl Explorer {
     /// Works in that place: unsaved work is kept there if the terminal is lost, and what is there
     /// already for the scene from `source` is offered.
     pub fn work_in(&mut self, workplace: Workplace, source: &Source) {
-        let folder = workplace.state.clone();
         self.state.workplace = workplace;
-        if let Some(folder) = folder {
-            keep::keep_in(&mut self.state, &folder, source);
-            self.open_dialog();
-        }
+        keep::keep(&mut self.state, source);
+        self.open_dialog();
+    }
+
+    /// Works in that place on a tour, on top of a scene of which nothing is offered.
+    pub fn tour_in(&mut self, workplace: Workplace) {
+        self.state.workplace = workplace;
     }
 
     /// To be called when the explorer is over: where unsaved work was kept, if there was any that
@@ -424,7 +433,7 @@ impl Explorer {
             Command::SaveAs(name) => saving::save_as_named(state, &name),
             Command::Overwrite(path) => saving::write(state, &path, Over::Anything),
             Command::Recover(path) => keep::recover(state, &path),
-            Command::Discard(path) => keep::discard(state, path),
+            Command::Discard => keep::discard(state),
             Command::Set(setting) => set::set(state, setting),
             Command::Copy(form) => export_case::copy(state, form),
             Command::Append(name) => match state.workplace.reach(&name) {

@@ -14,7 +14,7 @@ use toml::de::{DeTable, DeValue};
 use toml_parser::Source;
 use toml_parser::lexer::TokenKind;
 
-use super::value::{self, Number, Refused};
+use super::value::{self, NumberKind, Refused};
 use super::{Aim, Body, Camera, Light, Probe, Projection, Scene, Size};
 use crate::door::{self, Expected, FileError, TextPosition};
 use crate::geometry::Sphere;
@@ -34,7 +34,7 @@ impl Scene {
     /// without its extension, the name of a scene that gives none.
     pub fn parse(text: &str, source_name: &str) -> Result<Self, FileError> {
         let text = door::without_mark(text);
-        let mut reader = Reader::default();
+        let mut reader = SceneReader::default();
         pieces(text)
             .try_for_each(|piece| reader.read(&text[piece.clone()], piece.start))
             .and_then(|()| reader.finish(source_name))
@@ -91,7 +91,7 @@ fn pieces(text: &str) -> impl Iterator<Item = Range<usize>> {
 
 /// A table of a scene file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Place {
+enum SceneTable {
     Top,
     Camera,
     Light,
@@ -101,7 +101,7 @@ enum Place {
     Probe(usize),
 }
 
-impl Place {
+impl SceneTable {
     const fn keys(self) -> &'static [&'static str] {
         match self {
             Self::Top => &["name", "about", "camera", "light", "probe", "sphere"],
@@ -129,7 +129,7 @@ impl Place {
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for SceneTable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Top => write!(f, "top level"),
@@ -141,11 +141,11 @@ impl fmt::Display for Place {
     }
 }
 
-type Value<'t> = Spanned<DeValue<'t>>;
+type TomlValue<'t> = Spanned<DeValue<'t>>;
 
 /// One table of the file, whose keys are all known.
-struct Section<'a, 't> {
-    place: Place,
+struct TableReader<'a, 't> {
+    place: SceneTable,
     /// Where the table begins in the file.
     at: usize,
     /// Where the piece of the file begins that spans count from.
@@ -153,9 +153,9 @@ struct Section<'a, 't> {
     entries: &'a DeTable<'t>,
 }
 
-impl<'a, 't> Section<'a, 't> {
+impl<'a, 't> TableReader<'a, 't> {
     /// The table that `value` holds; refuses another kind of value and keys that are not known.
-    fn open(place: Place, base: usize, value: &'a Value<'t>) -> Result<Self, SceneFault> {
+    fn open(place: SceneTable, base: usize, value: &'a TomlValue<'t>) -> Result<Self, SceneFault> {
         let at = base + value.span().start;
         let Some(entries) = value.get_ref().as_table() else {
             let refused = Refused::new(kind_of(value), "a table");
@@ -189,7 +189,7 @@ impl<'a, 't> Section<'a, 't> {
         };
         let refused = Refused::new(format!("the unknown key {}", value::quoted(word)), expected);
         let problem = match self.place {
-            Place::Top => refused.to_string(),
+            SceneTable::Top => refused.to_string(),
             place => format!("{place}: {refused}"),
         };
         Err(SceneFault {
@@ -198,12 +198,12 @@ impl<'a, 't> Section<'a, 't> {
         })
     }
 
-    fn get(&self, key: &str) -> Option<&'a Value<'t>> {
+    fn get(&self, key: &str) -> Option<&'a TomlValue<'t>> {
         debug_assert!(self.place.keys().contains(&key), "{key} is not listed");
         self.entries.get(key)
     }
 
-    fn fault(&self, at: Option<&Value>, key: &str, problem: impl fmt::Display) -> SceneFault {
+    fn fault(&self, at: Option<&TomlValue>, key: &str, problem: impl fmt::Display) -> SceneFault {
         SceneFault {
             at: Some(at.map_or(self.at, |value| self.base + value.span().start)),
             problem: format!("{}: {problem}", self.place.key(key)),
@@ -214,7 +214,7 @@ impl<'a, 't> Section<'a, 't> {
     fn optional<T>(
         &self,
         key: &str,
-        read: impl FnOnce(&'a Value<'t>) -> Result<T, Refused>,
+        read: impl FnOnce(&'a TomlValue<'t>) -> Result<T, Refused>,
     ) -> Result<Option<T>, SceneFault> {
         self.get(key)
             .map(|value| read(value).map_err(|refused| self.fault(Some(value), key, refused)))
@@ -232,14 +232,14 @@ impl<'a, 't> Section<'a, 't> {
         })
     }
 
-    fn number(&self, key: &str, kind: Number) -> Result<Option<f32>, SceneFault> {
+    fn number(&self, key: &str, kind: NumberKind) -> Result<Option<f32>, SceneFault> {
         self.optional(key, |value| number(value, kind))
     }
 
     fn vector(&self, key: &str) -> Result<Option<Vec3>, SceneFault> {
         const EXPECTED: &str = "a list of three numbers, [x, y, z]";
         self.list(key, ["x", "y", "z"], EXPECTED, |value| {
-            number(value, Number::Coordinate)
+            number(value, NumberKind::Coordinate)
         })
         .map(|found| found.map(Vec3::from))
     }
@@ -250,7 +250,7 @@ impl<'a, 't> Section<'a, 't> {
         key: &str,
         names: [&str; N],
         expected: &'static str,
-        read: impl Fn(&'a Value<'t>) -> Result<T, Refused>,
+        read: impl Fn(&'a TomlValue<'t>) -> Result<T, Refused>,
     ) -> Result<Option<[T; N]>, SceneFault> {
         let Some(list) = self.get(key) else {
             return Ok(None);
@@ -258,7 +258,7 @@ impl<'a, 't> Section<'a, 't> {
         let components = list
             .get_ref()
             .as_array()
-            .and_then(|list| <&[Value; N]>::try_from(&list[..]).ok())
+            .and_then(|list| <&[TomlValue; N]>::try_from(&list[..]).ok())
             .ok_or_else(|| self.fault(Some(list), key, Refused::new(kind_of(list), expected)))?;
         let mut read_ones = Vec::with_capacity(N);
         for (value, name) in components.iter().zip(names) {
@@ -273,7 +273,7 @@ impl<'a, 't> Section<'a, 't> {
     }
 }
 
-fn number(value: &Value, kind: Number) -> Result<f32, Refused> {
+fn number(value: &TomlValue, kind: NumberKind) -> Result<f32, Refused> {
     match value.get_ref() {
         DeValue::Float(digits) => kind.read(digits.as_str()),
         DeValue::Integer(digits) if digits.radix() == 10 => kind.read(digits.as_str()),
@@ -290,7 +290,7 @@ fn number(value: &Value, kind: Number) -> Result<f32, Refused> {
     }
 }
 
-fn whole(value: &Value, least: u32, most: u32) -> Result<u32, Refused> {
+fn whole(value: &TomlValue, least: u32, most: u32) -> Result<u32, Refused> {
     let found = match value.get_ref() {
         DeValue::Integer(digits) => u32::from_str_radix(digits.as_str(), digits.radix()).ok(),
         _ => None,
@@ -304,7 +304,7 @@ fn whole(value: &Value, least: u32, most: u32) -> Result<u32, Refused> {
 }
 
 /// What a value is, in words that fit a line.
-fn kind_of(value: &Value) -> String {
+fn kind_of(value: &TomlValue) -> String {
     match value.get_ref() {
         DeValue::String(text) => format!("the text {}", value::quoted(text)),
         DeValue::Integer(digits) => value::shortened(&digits.to_string()),
@@ -319,7 +319,7 @@ fn kind_of(value: &Value) -> String {
 
 /// What has been read so far of a file that comes in pieces.
 #[derive(Default)]
-struct Reader {
+struct SceneReader {
     name: Option<String>,
     about: Option<String>,
     camera: Option<(Camera, Option<Size>)>,
@@ -329,12 +329,12 @@ struct Reader {
     bodies: Vec<Body>,
 }
 
-impl Reader {
+impl SceneReader {
     /// Reads one piece, which begins at byte `base` of the file.
     fn read(&mut self, piece: &str, base: usize) -> Result<(), SceneFault> {
         let root = DeTable::parse(piece).map_err(|error| no_toml(&error, piece, base))?;
-        let root = Section {
-            place: Place::Top,
+        let root = TableReader {
+            place: SceneTable::Top,
             at: base,
             base,
             entries: root.get_ref(),
@@ -343,23 +343,24 @@ impl Reader {
         self.name = self.name.take().or(root.line("name")?.map(str::to_owned));
         self.about = self.about.take().or(root.line("about")?.map(str::to_owned));
         if let Some(value) = root.get("camera") {
-            let section = Section::open(Place::Camera, base, value)?;
+            let section = TableReader::open(SceneTable::Camera, base, value)?;
             refuse_second(&section, self.camera.is_some())?;
             self.camera = Some(camera(&section)?);
         }
         if let Some(value) = root.get("light") {
-            let section = Section::open(Place::Light, base, value)?;
+            let section = TableReader::open(SceneTable::Light, base, value)?;
             refuse_second(&section, self.light.is_some())?;
             self.light = Some(light(&section)?);
         }
         for value in tables(&root, "probe")? {
-            let place = Place::Probe(self.probes.len() + 1);
+            let place = SceneTable::Probe(self.probes.len() + 1);
             self.probes
-                .push(probe(&Section::open(place, base, value)?)?);
+                .push(probe(&TableReader::open(place, base, value)?)?);
         }
         for value in tables(&root, "sphere")? {
-            let place = Place::Sphere(self.bodies.len() + 1);
-            self.bodies.push(body(&Section::open(place, base, value)?)?);
+            let place = SceneTable::Sphere(self.bodies.len() + 1);
+            self.bodies
+                .push(body(&TableReader::open(place, base, value)?)?);
         }
         Ok(())
     }
@@ -376,7 +377,7 @@ impl Reader {
         for (n, (probe, at)) in self.probes.iter().enumerate() {
             check_pixel(probe.aim, pixels).map_err(|refused| SceneFault {
                 at: Some(*at),
-                problem: format!("{}: {refused}", Place::Probe(n + 1).key("pixel")),
+                problem: format!("{}: {refused}", SceneTable::Probe(n + 1).key("pixel")),
             })?;
         }
         Ok(Scene {
@@ -403,7 +404,7 @@ fn no_toml(error: &toml::de::Error, piece: &str, base: usize) -> SceneFault {
     }
 }
 
-fn refuse_second(section: &Section, seen: bool) -> Result<(), SceneFault> {
+fn refuse_second(section: &TableReader, seen: bool) -> Result<(), SceneFault> {
     if seen {
         let problem = format!("{}: found a second table, expected only one", section.place);
         return Err(SceneFault {
@@ -422,7 +423,10 @@ fn stem(source_name: &str) -> String {
         .replace(char::is_control, "")
 }
 
-fn tables<'a, 't>(root: &Section<'a, 't>, key: &str) -> Result<&'a [Value<'t>], SceneFault> {
+fn tables<'a, 't>(
+    root: &TableReader<'a, 't>,
+    key: &str,
+) -> Result<&'a [TomlValue<'t>], SceneFault> {
     match root.get(key) {
         None => Ok(&[]),
         Some(value) => value
@@ -439,7 +443,7 @@ fn tables<'a, 't>(root: &Section<'a, 't>, key: &str) -> Result<&'a [Value<'t>], 
     }
 }
 
-fn camera(section: &Section) -> Result<(Camera, Option<Size>), SceneFault> {
+fn camera(section: &TableReader) -> Result<(Camera, Option<Size>), SceneFault> {
     const POINT: &str = "a list of three numbers, [x, y, z]";
     let position = section.required("position", POINT, section.vector("position")?)?;
     let look_at = section.required("look_at", POINT, section.vector("look_at")?)?;
@@ -465,7 +469,7 @@ fn camera(section: &Section) -> Result<(Camera, Option<Size>), SceneFault> {
     ))
 }
 
-fn projection(section: &Section) -> Result<Projection, SceneFault> {
+fn projection(section: &TableReader) -> Result<Projection, SceneFault> {
     const NAMES: [&str; 2] = ["perspective", "orthographic"];
     let orthographic = section.optional("projection", |value| {
         let found = value.get_ref().as_str();
@@ -480,7 +484,7 @@ fn projection(section: &Section) -> Result<Projection, SceneFault> {
             "extent",
             ["width", "height"],
             "a list of two numbers above 0, [width, height]",
-            |value| number(value, Number::Extent),
+            |value| number(value, NumberKind::Extent),
         )?;
         refuse_other(section, "field_of_view", "perspective")?;
         let expected = "the width and height that an orthographic camera sees";
@@ -488,7 +492,7 @@ fn projection(section: &Section) -> Result<Projection, SceneFault> {
             extent: section.required("extent", expected, extent)?,
         })
     } else {
-        let field_of_view = section.number("field_of_view", Number::FieldOfView)?;
+        let field_of_view = section.number("field_of_view", NumberKind::FieldOfView)?;
         refuse_other(section, "extent", "orthographic")?;
         Ok(Projection::Perspective {
             field_of_view: field_of_view.unwrap_or(FIELD_OF_VIEW),
@@ -500,7 +504,7 @@ fn projection(section: &Section) -> Result<Projection, SceneFault> {
 const FIELD_OF_VIEW: f32 = 45.0;
 
 /// Refuses a key that only the other projection has.
-fn refuse_other(section: &Section, key: &str, other: &str) -> Result<(), SceneFault> {
+fn refuse_other(section: &TableReader, key: &str, other: &str) -> Result<(), SceneFault> {
     match section.get(key) {
         None => Ok(()),
         Some(value) => {
@@ -511,17 +515,17 @@ fn refuse_other(section: &Section, key: &str, other: &str) -> Result<(), SceneFa
     }
 }
 
-fn light(section: &Section) -> Result<Light, SceneFault> {
+fn light(section: &TableReader) -> Result<Light, SceneFault> {
     let expected = "a list of three numbers, [x, y, z]";
     let position = section.required("position", expected, section.vector("position")?)?;
     Ok(Light { position })
 }
 
-fn body(section: &Section) -> Result<Body, SceneFault> {
+fn body(section: &TableReader) -> Result<Body, SceneFault> {
     let expected = "a list of three numbers, [x, y, z]";
     let center = section.required("center", expected, section.vector("center")?)?;
-    let radius = section.number("radius", Number::Radius)?;
-    let radius = section.required("radius", Number::Radius.expected(), radius)?;
+    let radius = section.number("radius", NumberKind::Radius)?;
+    let radius = section.required("radius", NumberKind::Radius.expected(), radius)?;
     Ok(Body {
         sphere: Sphere::new(center, radius)
             .map_err(|invalid| section.fault(None, &invalid.field.clone(), invalid))?,
@@ -534,7 +538,7 @@ fn body(section: &Section) -> Result<Body, SceneFault> {
 }
 
 /// A probe, and where in the file its aim stands.
-fn probe(section: &Section) -> Result<(Probe, usize), SceneFault> {
+fn probe(section: &TableReader) -> Result<(Probe, usize), SceneFault> {
     let pixel = section.list(
         "pixel",
         ["x", "y"],
@@ -591,7 +595,7 @@ mod tests {
 
     #[test]
     fn the_docs_name_every_key_and_limit() {
-        use Place::{Camera, Light, Probe, Sphere, Top};
+        use SceneTable::{Camera, Light, Probe, Sphere, Top};
         for place in [Top, Camera, Light, Sphere(1), Probe(1)] {
             for key in place.keys() {
                 let spellings = [

@@ -41,7 +41,7 @@ impl std::error::Error for Refused {}
 
 /// What a number stands for, and so which numbers it may be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Number {
+pub enum NumberKind {
     /// A coordinate of a point or a direction: any finite number.
     Coordinate,
     /// The radius of a sphere: zero or more.
@@ -52,7 +52,7 @@ pub enum Number {
     FieldOfView,
 }
 
-impl Number {
+impl NumberKind {
     /// Reads a number in decimal or in hexadecimal, rounded once to binary32.
     pub fn read(self, text: &str) -> Result<f32, Refused> {
         let text = text.trim();
@@ -112,7 +112,7 @@ pub fn vector(text: &str) -> Result<Vec3, Refused> {
     let [x, y, z] = parts[..] else {
         return Err(Refused::new(quoted(text), EXPECTED));
     };
-    let [x, y, z] = [x, y, z].map(|part| Number::Coordinate.read(part));
+    let [x, y, z] = [x, y, z].map(|part| NumberKind::Coordinate.read(part));
     Ok(Vec3::new(x?, y?, z?))
 }
 
@@ -183,7 +183,7 @@ mod tests {
         // Just above the middle of two neighbours; rounded to binary64 it is the middle, and that
         // goes to the even neighbour below.
         let text = "1.00000005960464477540";
-        assert_eq!(Number::Coordinate.read(text), Ok(1.0 + f32::EPSILON));
+        assert_eq!(NumberKind::Coordinate.read(text), Ok(1.0 + f32::EPSILON));
         assert_eq!(text.parse::<f64>().unwrap() as f32, 1.0);
     }
 
@@ -196,13 +196,13 @@ mod tests {
             ("1e-3", 0.001),
             ("0x1.8p3", 12.0),
         ] {
-            assert_eq!(Number::Coordinate.read(text), Ok(value), "{text}");
+            assert_eq!(NumberKind::Coordinate.read(text), Ok(value), "{text}");
         }
     }
 
     #[test]
     fn each_kind_of_number_says_what_it_may_be() {
-        use Number::{Coordinate, Extent, FieldOfView, Radius};
+        use NumberKind::{Coordinate, Extent, FieldOfView, Radius};
         for (kind, text, sentence) in [
             (Coordinate, "", "found \"\", expected a finite number"),
             (Coordinate, "1,5", "found \"1,5\", expected a finite number"),

@@ -3,7 +3,7 @@
 
 use std::fs::{File, Metadata, OpenOptions};
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Opens a file as `options` have it. A pipe without another end is not waited for, and a terminal
 /// does not become the program's own.
@@ -95,4 +95,55 @@ pub fn exchange(one: &Path, other: &Path) -> io::Result<()> {
         let _ = (one, other);
         Err(io::ErrorKind::Unsupported.into())
     }
+}
+
+/// Locks a file for as long as it is open; false if another program has locked it.
+pub fn lock(file: &File) -> io::Result<bool> {
+    #[cfg(unix)]
+    {
+        use rustix::fs::{FlockOperation, flock};
+        match flock(file, FlockOperation::NonBlockingLockExclusive) {
+            Ok(()) => Ok(true),
+            Err(rustix::io::Errno::WOULDBLOCK) => Ok(false),
+            Err(error) => Err(error.into()),
+        }
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = file;
+        Ok(true)
+    }
+}
+
+/// Whether it is this file that has that name.
+pub fn is_at(file: &File, path: &Path) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::MetadataExt;
+        let id = |there: Metadata| (there.dev(), there.ino());
+        let (own, there) = (file.metadata(), path.metadata());
+        own.is_ok_and(|own| there.is_ok_and(|there| id(own) == id(there)))
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = file;
+        path.exists()
+    }
+}
+
+/// The home folder that the system has noted for who runs this process, whatever the environment
+/// says.
+pub fn noted_home() -> Option<PathBuf> {
+    #[cfg(unix)]
+    {
+        let user = rustix::process::getuid().as_raw().to_string();
+        let list = std::fs::read_to_string("/etc/passwd").ok()?;
+        let line = list
+            .lines()
+            .map(|line| line.split(':').collect::<Vec<_>>())
+            .find(|fields| fields.get(2) == Some(&user.as_str()))?;
+        line.get(5).map(PathBuf::from)
+    }
+    #[cfg(not(unix))]
+    None
 }

@@ -359,6 +359,30 @@ fn unsaved_work_outlives_the_terminal_and_is_offered_again() {
 }
 
 #[test]
+fn who_is_killed_loses_next_to_nothing() {
+    let mut pty = Pty::explorer(Start::default());
+    pty.sends("x");
+    pty.waits_to_show("unsaved");
+    let home = pty.home();
+    let state = home.path().join(".local/state/rayscope");
+    let is_written = |entry: fs::DirEntry| entry.path().extension().is_some_and(|e| e == "toml");
+    pty.waits_for("what is unsaved in a file", |_| {
+        fs::read_dir(&state).is_ok_and(|mut files| files.any(|f| f.is_ok_and(is_written)))
+    });
+    // A session that lives is offered to no other.
+    let mut other = Pty::explorer(Start::default().home(&home));
+    assert!(!other.shows("Unsaved work of"), "{}", other.text());
+    other.sends("q");
+    assert_eq!(other.ends(), 0);
+    pty.dies();
+
+    let mut pty = Pty::explorer(Start::default().home(&home));
+    pty.waits_to_show("Unsaved work of");
+    pty.sends("o");
+    pty.waits_to_show("c    21, 20, 20");
+}
+
+#[test]
 fn every_usual_terminal_gets_colours_that_it_has() {
     for (term, colors, fewer) in [
         ("xterm-256color", true, false),

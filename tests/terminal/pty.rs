@@ -333,6 +333,13 @@ impl Pty {
         self.child.status()
     }
 
+    /// Ends it as `kill -9` does.
+    pub fn dies(mut self) {
+        self.is_sent(Signal::KILL);
+        let ended = self.child.0.wait().expect("a status");
+        assert!(ended.signal().is_some());
+    }
+
     /// Closes the terminal under the program; its exit status.
     pub fn hangs_up(mut self) -> u32 {
         self.reader.stop.store(true, Ordering::SeqCst);

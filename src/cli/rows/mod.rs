@@ -25,7 +25,7 @@ pub(super) struct CsvFile<R, const N: usize> {
     expected: Expected,
     path: PathBuf,
     rows: CsvRows<R>,
-    pub columns: Columns<N>,
+    pub columns: CsvColumns<N>,
 }
 
 impl<R: BufRead, const N: usize> CsvFile<R, N> {
@@ -44,7 +44,7 @@ impl<R: BufRead, const N: usize> CsvFile<R, N> {
             let sentence = format!("{path} is empty: expected a header with {columns}");
             return Err(Failure::invalid(sentence));
         }
-        let columns = Columns::of(&header, names).map_err(|reason| {
+        let columns = CsvColumns::of(&header, names).map_err(|reason| {
             let (path, line) = (shown(path), header.line);
             Failure::invalid(format_args!("{path}: line {line}{reason}"))
         })?;
@@ -78,7 +78,7 @@ pub(super) fn unreadable(error: &FileError) -> Failure {
 }
 
 /// Where the columns that are wanted are in a row.
-pub(super) struct Columns<const N: usize> {
+pub(super) struct CsvColumns<const N: usize> {
     wanted: [&'static str; N],
     /// For each column that is wanted, the field that holds it.
     places: [usize; N],
@@ -86,7 +86,7 @@ pub(super) struct Columns<const N: usize> {
     names: Vec<String>,
 }
 
-impl<const N: usize> Columns<N> {
+impl<const N: usize> CsvColumns<N> {
     /// The columns by the names in the header; a name too few or twice is refused in a sentence.
     fn of(header: &CsvRow, wanted: [&'static str; N]) -> Result<Self, String> {
         let names: Vec<&[u8]> = header.iter().map(<[u8]>::trim_ascii).collect();

@@ -1,63 +1,184 @@
-//! Keeping unsaved work when it can't be asked about, and offering it when the same scene is opened
-//! again.
+//! Keeping unsaved work, and offering it when the same scene is opened again.
 
 use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 use crate::explorer::dialog::{Confirmation, in_words};
 use crate::explorer::edit::document::Change;
 use crate::explorer::edit::spheres;
 use crate::explorer::files::disk::remove_orphans;
-use crate::explorer::files::rescue::{Rescue, age, identity, owner};
+use crate::explorer::files::kept::{KeptFile, KeptFolder};
+use crate::explorer::files::place::FilePlace;
+use crate::explorer::files::rescue::{NOWHERE, Rescue, identity};
 use crate::explorer::link::command_line;
-use crate::explorer::state::State;
+use crate::explorer::state::{State, Work};
 use crate::scene::{Builtin, Scene, Source};
+use crate::system::Waker;
 
-/// Keeps unsaved work in `folder` if the terminal is lost, and offers what is there already for
-/// the scene from `source`.
-pub(crate) fn keep_in(state: &mut State, folder: &Path, source: &Source) {
-    let rescue = Rescue {
-        folder: folder.to_owned(),
-        scene: identity(source),
-        taken: None,
-        discarded: state.rescue.take().map_or_else(Vec::new, |r| r.discarded),
-    };
-    remove_orphans(folder);
-    if let Some((path, age)) = rescue.newest(|scene| scene == rescue.scene) {
-        state.ask(Confirmation::Recover { path, age });
-    } else if let Some((path, age)) = rescue.newest(|_| true) {
-        state.say(elsewhere(&path, age));
+/// Keeps unsaved work on the scene from `source` from now on, if this explorer keeps any, and offers
+/// what is there already.
+pub(crate) fn keep(state: &mut State, source: &Source) {
+    if !state.workplace.keeps() {
+        return;
+    }
+    let version = state.work.document.ground_version();
+    let mut rescue = Rescue::new(state.workplace.kept_folder(), identity(source), version);
+    if let Some(folder) = &rescue.folder {
+        remove_orphans(&folder.folder);
+        folder.prune(KeptFolder::MOST);
+        if let Some((kept, age)) = folder.newest(|scene| scene == rescue.scene) {
+            let path = kept.path.clone();
+            state.ask(Confirmation::Recover { path, age });
+            rescue.offered = Some(kept);
+        } else if let Some((kept, age)) = folder.newest(|_| true) {
+            state.say(elsewhere(&kept, age));
+        }
     }
     state.rescue = Some(rescue);
+}
+
+/// The same for another scene in the place of one: what was not saved of that is given up.
+pub(crate) fn keep_on(state: &mut State, before: Option<Rescue>, source: &Source) {
+    let mut discarded = Vec::new();
+    if let Some(mut before) = before {
+        before.give_up();
+        discarded = before.discarded;
+    }
+    keep(state, source);
+    if let Some(rescue) = &mut state.rescue {
+        rescue.discarded = discarded;
+    }
+}
+
+/// The person's own work, which may wait behind the tour.
+fn own_work(state: &State) -> &Work {
+    state
+        .aside
+        .as_ref()
+        .map_or(&state.work, |aside| &aside.work)
+}
+
+/// Whether there is work that somebody would miss: another look at a built-in scene is none.
+fn is_worth_it(work: &Work) -> bool {
+    let only_looked = matches!(work.place, FilePlace::Builtin(_))
+        && work.document.ground().bodies == work.opened.bodies;
+    work.document.is_changed() && !only_looked
+}
+
+/// What becomes of the person's own work; none if this explorer keeps none.
+fn rescue(state: &mut State) -> Option<&mut Rescue> {
+    if state.rescue.is_none() && state.workplace.keeps() {
+        let work = own_work(state);
+        let scene = match &work.place {
+            FilePlace::None => work.opened.name.clone(),
+            FilePlace::Builtin(builtin) => identity(&Source::Builtin(*builtin)),
+            FilePlace::File(stamp) => identity(&Source::File(stamp.path().to_owned())),
+        };
+        state.rescue = Some(Rescue::new(state.workplace.kept_folder(), scene, 0));
+    }
+    state.rescue.as_mut()
+}
+
+/// Has unsaved work written down a little later, if there is any that is not.
+pub(crate) fn note_changes(state: &mut State, waker: &Waker) {
+    let version = own_work(state).document.ground_version();
+    if let Some(rescue) = rescue(state)
+        && rescue.noted != version
+        && rescue.due.is_none()
+    {
+        rescue.wait(waker.clone());
+    }
+}
+
+/// Writes unsaved work down if it is time; whether there is something to say about it.
+pub(crate) fn write_down_if_due(state: &mut State, waker: &Waker) -> bool {
+    let Some(rescue) = &mut state.rescue else {
+        return false;
+    };
+    let due = rescue.due.as_ref();
+    if !due.is_some_and(|due| due.load(Ordering::Acquire)) {
+        return false;
+    }
+    if rescue.is_writing() {
+        rescue.wait(waker.clone());
+        return false;
+    }
+    rescue.due = None;
+    write_down(state)
+}
+
+/// The same between two lines of text, where nobody is woken: at once, unless that took too large a
+/// part of the time.
+pub(crate) fn write_down_between_lines(state: &mut State) -> bool {
+    let rescue = state.rescue.as_ref();
+    !rescue.is_some_and(Rescue::is_too_soon) && write_down(state)
+}
+
+/// Has unsaved work written down by a thread; whether there is something to say about it.
+fn write_down(state: &mut State) -> bool {
+    let work = own_work(state);
+    let (version, is_worth_it) = (work.document.ground_version(), is_worth_it(work));
+    let Some(rescue) = rescue(state) else {
+        return false;
+    };
+    let before = rescue.collect();
+    if rescue.noted == version && before.is_ok() {
+        return false;
+    }
+    rescue.noted = version;
+    if !is_worth_it {
+        rescue.forget_own();
+        return false;
+    }
+    let is_nowhere = rescue.folder.is_none();
+    if let Some(reason) = before.err().or_else(|| is_nowhere.then(|| NOWHERE.into())) {
+        let is_news = !std::mem::replace(&mut rescue.has_warned, true);
+        if is_news {
+            state.warn(format!("Unsaved work is not kept, save it: {reason}."));
+        }
+        return is_news;
+    }
+    let scene = own_work(state).document.ground().clone();
+    if let Some(rescue) = &mut state.rescue {
+        rescue.write(scene);
+    }
+    false
 }
 
 /// When the explorer is over and the tour is put away: where unsaved work was kept, if there was any that
 /// the person has not given up.
 pub(crate) fn finish(state: &mut State) -> Result<Option<PathBuf>, String> {
-    if let (Some(_), Some(rescue)) = (state.ended, &mut state.rescue) {
-        rescue.remove_discarded();
-    }
-    if !state.is_changed() {
-        return Ok(None);
-    }
+    let is_changed = state.is_changed();
     let given_up = match state.ended {
         // Who interrupts has not been asked, or not answered.
         Some(130) => !state.is_worth_saving(),
         Some(_) => true,
         None => false,
     };
-    let text = state.work.document.ground().to_toml();
-    let Some(rescue) = &mut state.rescue else {
+    let text = (is_changed && !given_up).then(|| state.work.document.ground().to_toml());
+    let has_left = state.ended.is_some();
+    let Some(rescue) = rescue(state) else {
         return Ok(None);
     };
-    let kept = if given_up {
-        None
-    } else {
-        let kept = rescue.keep(&text);
-        let folder = rescue.folder.display();
-        Some(kept.map_err(|e| format!("{folder}: unsaved work not kept: {e}"))?)
-    };
-    rescue.forget_taken();
+    if has_left {
+        rescue.remove_discarded();
+    }
+    // What went wrong before is tried again.
+    let _ = rescue.collect();
+    let kept = text.map(|text| rescue.keep(&text)).transpose();
+    let kept = kept.map_err(|reason| format!("unsaved work not kept: {reason}"))?;
+    if kept.is_none() {
+        rescue.forget_own();
+    }
+    if is_changed {
+        rescue.forget_taken();
+    }
+    rescue.offered = None;
+    rescue.discarded.clear();
+    if let Some(folder) = &rescue.folder {
+        folder.prune(KeptFolder::MOST);
+    }
     Ok(kept)
 }
 
@@ -68,7 +189,7 @@ pub(crate) fn recover(state: &mut State, path: &Path) {
             state.apply(Change::Scene(Box::new(scene)));
             spheres::mend_selection(state);
             if let Some(rescue) = &mut state.rescue {
-                rescue.taken = Some(path.to_owned());
+                rescue.taken = rescue.offered.take();
             }
             state.say("This is what was not saved. u goes back to the scene as it was opened.");
         }
@@ -76,39 +197,57 @@ pub(crate) fn recover(state: &mut State, path: &Path) {
     }
 }
 
-/// Deletes kept work as soon as the person leaves.
-pub(crate) fn discard(state: &mut State, path: PathBuf) {
+/// Deletes the kept work that is offered as soon as the person leaves.
+pub(crate) fn discard(state: &mut State) {
     if let Some(rescue) = &mut state.rescue {
-        rescue.discarded.push(path);
+        rescue.discarded.extend(rescue.offered.take());
         state.say("It is deleted when you leave. Until then u brings it back.");
     }
 }
 
 /// Offers again what was discarded last; false if there is none.
 pub(crate) fn bring_back_discarded(state: &mut State) -> bool {
-    let discarded = state.rescue.as_mut().and_then(|r| r.discarded.pop());
-    let Some(path) = discarded else {
+    let Some(rescue) = &mut state.rescue else {
         return false;
     };
-    let age = age(&path).unwrap_or_default();
+    let Some(kept) = rescue.discarded.pop() else {
+        return false;
+    };
+    let (path, age) = (kept.path.clone(), kept.age().unwrap_or_default());
+    rescue.offered = Some(kept);
     state.ask(Confirmation::Recover { path, age });
     true
 }
 
+/// Does not offer the kept work again.
+pub(crate) fn put_off(state: &mut State) {
+    let offered = state.rescue.as_mut().and_then(|r| r.offered.take());
+    if let Some(Ok(path)) = offered.map(KeptFile::put_off) {
+        let line = command_line(&[path.to_string_lossy().into_owned()]);
+        state.say(format!(
+            "The unsaved work stays where it is: `{line}` opens it."
+        ));
+    }
+}
+
 /// What was kept is saved now; from here on unsaved work belongs to that file.
 pub(crate) fn saved_as(state: &mut State, path: &Path) {
+    let version = state.work.document.ground_version();
     // What is tried out in the tour is not kept when the terminal is lost.
     if let (Some(rescue), None) = (&mut state.rescue, &state.aside) {
+        let _ = rescue.collect();
+        rescue.forget_own();
         rescue.forget_taken();
+        rescue.noted = version;
         rescue.scene = identity(&Source::File(path.to_owned()));
     }
 }
 
 /// That work on another scene was kept, and how to come by it.
-fn elsewhere(path: &Path, age: Duration) -> String {
-    let scene = owner(path).unwrap_or_default();
+fn elsewhere(kept: &KeptFile, age: Duration) -> String {
+    let scene = kept.owner().map_or_else(String::new, |(scene, _)| scene);
     let is_there = Builtin::by_name(&scene).is_some() || Path::new(&scene).exists();
-    let file = path.to_string_lossy();
+    let file = kept.path.to_string_lossy();
     let opens = if is_there { scene.clone() } else { file.into() };
     format!(
         "Unsaved work of {} ago on {scene} was kept: `{}` opens it.",
@@ -120,6 +259,8 @@ fn elsewhere(path: &Path, age: Duration) -> String {
 #[cfg(test)]
 mod tests {
     use std::fs;
+    use std::sync::mpsc;
+    use std::time::UNIX_EPOCH;
 
     use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 
@@ -138,15 +279,14 @@ mod tests {
 
     fn press(explorer: &mut Explorer, keys: &str) {
         for c in keys.chars() {
-            let key = KeyEvent::new(KeyCode::Char(c), KeyModifiers::NONE);
+            let code = match c {
+                '\u{1b}' => KeyCode::Esc,
+                c => KeyCode::Char(c),
+            };
+            let key = KeyEvent::new(code, KeyModifiers::NONE);
             explorer.prepare(80, 24);
             explorer.update(&Event::Key(key));
         }
-    }
-
-    fn asks(explorer: &Explorer) -> bool {
-        let asked = explorer.modes.last().and_then(Mode::question);
-        matches!(asked, Some(Confirmation::Recover { .. }))
     }
 
     fn files(folder: &Path) -> usize {
@@ -162,7 +302,7 @@ mod tests {
         let kept = lost.finish().unwrap().expect("a file");
         assert!(system::is_private(&kept) && system::is_private(&folder));
 
-        let mut other = opened(&folder, "seed");
+        let mut other = opened(&folder, "tutorial");
         assert!(other.modes.is_empty());
         let said = other.state.message.take().expect("a message").text;
         assert!(
@@ -170,8 +310,7 @@ mod tests {
             "{said}"
         );
         let mut again = opened(&folder, "trio");
-        let asked = again.modes.last().and_then(Mode::question);
-        assert!(matches!(asked, Some(Confirmation::Recover { .. })));
+        assert!(is_offered(&again));
         press(&mut again, "o");
         assert_eq!(again.scene().bodies, lost.scene().bodies);
         assert!(again.is_changed());
@@ -181,21 +320,27 @@ mod tests {
         assert!(kept.exists(), "undone is not given up");
     }
 
+    /// Leaves unsaved work behind.
+    fn lose(folder: &Path, name: &str) -> Explorer {
+        let mut lost = opened(folder, name);
+        press(&mut lost, "x");
+        lost.finish().unwrap().expect("a file");
+        lost
+    }
+
+    fn is_offered(explorer: &Explorer) -> bool {
+        let asked = explorer.modes.last().and_then(Mode::question);
+        matches!(asked, Some(Confirmation::Recover { .. }))
+    }
+
     #[test]
     fn kept_work_goes_when_it_is_saved_or_given_up_and_not_before() {
         let folder = tempfile::tempdir().unwrap();
         let folder = folder.path();
-        let mut lost = opened(folder, "trio");
-        press(&mut lost, "x");
-        lost.finish().unwrap();
+        let mut lost = lose(folder, "trio");
         press(&mut lost, "x");
         lost.finish().unwrap();
         assert_eq!(files(folder), 2, "one never replaces another");
-
-        let mut later = opened(folder, "trio");
-        press(&mut later, "nq");
-        assert_eq!(later.ended(), Some(0));
-        assert_eq!(files(folder), 2);
 
         let mut given_up = opened(folder, "trio");
         press(&mut given_up, "oqqD");
@@ -216,26 +361,55 @@ mod tests {
     }
 
     #[test]
-    fn a_key_that_is_no_answer_means_later_and_does_what_it_does() {
+    fn a_key_that_is_no_answer_means_later_and_what_is_put_off_is_not_offered_again() {
         let folder = tempfile::tempdir().unwrap();
         let folder = folder.path();
-        let mut lost = opened(folder, "trio");
-        press(&mut lost, "x");
-        lost.finish().unwrap();
+        lose(folder, "trio");
         let mut later = opened(folder, "trio");
         press(&mut later, "d");
         assert!(later.modes.is_empty());
         assert_ne!(later.scene().camera, later.state.work.opened.camera);
         assert_eq!(files(folder), 1, "d orbits, and deletes nothing");
-        let mut deleted = opened(folder, "trio");
-        press(&mut deleted, "D");
-        assert!(!asks(&deleted));
-        press(&mut deleted, "u");
-        assert!(asks(&deleted));
-        press(&mut deleted, "D");
-        assert_eq!(files(folder), 1, "until the person leaves");
-        press(&mut deleted, "q");
-        deleted.finish().unwrap();
+        let mut other = opened(folder, "trio");
+        assert!(!is_offered(&other) && other.state.message.is_none());
+
+        lose(folder, "trio");
+        let mut later = opened(folder, "trio");
+        press(&mut later, "\u{1b}");
+        let said = later
+            .state
+            .message
+            .take()
+            .map(|m| m.text)
+            .unwrap_or_default();
+        let path = said
+            .split('`')
+            .nth(1)
+            .and_then(|line| line.strip_prefix("rayscope "));
+        let path = path.unwrap_or_else(|| panic!("no command in {said}"));
+        press(&mut other, "q");
+        let (scene, _) = Scene::open(path).unwrap();
+        assert_ne!(scene.bodies, other.scene().bodies, "it is still there");
+    }
+
+    #[test]
+    fn discarded_work_comes_back_until_the_person_leaves() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        lose(folder, "trio");
+        let mut discarded = opened(folder, "trio");
+        press(&mut discarded, "D");
+        assert!(!is_offered(&discarded));
+        press(&mut discarded, "u");
+        assert!(is_offered(&discarded));
+        press(&mut discarded, "D");
+        assert_eq!(files(folder), 1);
+        // The link drops: nobody has left.
+        discarded.finish().unwrap();
+        let mut discarded = opened(folder, "trio");
+        assert!(is_offered(&discarded));
+        press(&mut discarded, "Dq");
+        discarded.finish().unwrap();
         assert_eq!(files(folder), 0);
     }
 
@@ -249,13 +423,13 @@ mod tests {
         let key = |c| Event::Key(KeyEvent::new(KeyCode::Char(c), KeyModifiers::NONE));
         let mut hasty = opened(folder, "trio");
         hasty.update(&key('D'));
-        assert!(asks(&hasty), "nothing was drawn yet");
+        assert!(is_offered(&hasty), "nothing was drawn yet");
         hasty.prepare(80, 24);
         hasty.update_typed_ahead(&key('D'));
-        assert!(asks(&hasty), "the terminal had not shown it");
+        assert!(is_offered(&hasty), "the terminal had not shown it");
         hasty.prepare(80, 24);
         hasty.update(&key('D'));
-        assert!(!asks(&hasty));
+        assert!(!is_offered(&hasty));
 
         let mut hasty = opened(folder, "trio");
         press(&mut hasty, "nx");
@@ -264,6 +438,145 @@ mod tests {
         assert_eq!(hasty.ended(), None);
         press(&mut hasty, "D");
         assert_eq!(hasty.ended(), Some(0));
+    }
+
+    /// Waits until it is time to write unsaved work down, and until it is written.
+    fn rest(explorer: &mut Explorer, woken: &mpsc::Receiver<()>) -> bool {
+        woken.recv().expect("a waker");
+        let said = explorer.catch_up();
+        if let Some(rescue) = &mut explorer.state.rescue {
+            rescue.collect().unwrap();
+        }
+        said
+    }
+
+    fn alarm(explorer: &mut Explorer) -> mpsc::Receiver<()> {
+        let (sender, woken) = mpsc::channel();
+        explorer.wake_by(Waker::new(move || {
+            let _ = sender.send(());
+        }));
+        woken
+    }
+
+    #[test]
+    fn work_is_written_down_at_rest_and_offered_only_once_its_session_is_over() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        let mut working = opened(folder, "trio");
+        let woken = alarm(&mut working);
+        press(&mut working, "x");
+        rest(&mut working, &woken);
+        assert_eq!(files(folder), 1);
+        let other = opened(folder, "trio");
+        assert!(
+            !is_offered(&other) && other.state.message.is_none(),
+            "it is alive"
+        );
+        press(&mut working, "u");
+        rest(&mut working, &woken);
+        assert_eq!(files(folder), 0, "there is nothing to keep any more");
+        press(&mut working, "xx");
+        rest(&mut working, &woken);
+        let bodies = working.scene().bodies.clone();
+        // As it is with `kill -9`.
+        drop(working);
+        let mut next = opened(folder, "trio");
+        assert!(is_offered(&next));
+        let third = opened(folder, "trio");
+        assert!(!is_offered(&third), "it is offered to one at a time");
+        press(&mut next, "o");
+        assert_eq!(next.scene().bodies, bodies);
+    }
+
+    #[test]
+    fn neither_a_clock_that_went_back_nor_a_spoilt_file_hides_good_work() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        lose(folder, "trio");
+        let mut newest = opened(folder, "trio");
+        press(&mut newest, "oxx");
+        let kept = newest.finish().unwrap().expect("a file");
+        lose(folder, "far");
+        let early = UNIX_EPOCH + Duration::from_secs(1);
+        fs::File::options()
+            .write(true)
+            .open(kept)
+            .and_then(|file| file.set_modified(early))
+            .unwrap();
+        let spoilt = folder.join("99999999999999999999-1.toml");
+        fs::write(spoilt, "# scene: trio\n[camera").unwrap();
+        let mut next = opened(folder, "trio");
+        press(&mut next, "o");
+        assert_eq!(next.scene().bodies, newest.scene().bodies);
+    }
+
+    #[test]
+    fn who_shares_an_account_is_offered_their_own_work_alone() {
+        let folder = tempfile::tempdir().unwrap();
+        let open = |person: &str| {
+            let (scene, source) = Scene::open("trio").expect("a scene");
+            let mut explorer = Explorer::new(scene, &source, Options::default());
+            let workplace = Workplace::keeping_in(folder.path());
+            explorer.work_in(workplace.of_person(person.to_owned()), &source);
+            explorer
+        };
+        let mut ada = open("publickey ssh-ed25519 ada");
+        press(&mut ada, "x");
+        ada.finish().unwrap().expect("a file");
+        for other in ["publickey ssh-ed25519 bob", ""] {
+            let other = open(other);
+            assert!(!is_offered(&other) && other.state.message.is_none());
+        }
+        assert!(is_offered(&open("publickey ssh-ed25519 ada")));
+        for _ in 0..10 {
+            let mut bob = open("publickey ssh-ed25519 bob");
+            bob.modes.clear();
+            press(&mut bob, "x");
+            bob.finish().unwrap().expect("a file");
+        }
+        assert_eq!(files(folder.path()), 1 + KeptFolder::MOST);
+        assert!(
+            is_offered(&open("publickey ssh-ed25519 ada")),
+            "hers is not dropped"
+        );
+    }
+
+    #[test]
+    fn of_forty_dropped_sessions_the_newest_five_are_kept() {
+        let folder = tempfile::tempdir().unwrap();
+        let folder = folder.path();
+        // All are dropped at once.
+        let mut all: Vec<_> = (0..40).map(|_| opened(folder, "trio")).collect();
+        for explorer in &mut all {
+            press(explorer, "x");
+            explorer.finish().unwrap().expect("a file");
+        }
+        assert_eq!(files(folder), KeptFolder::MOST);
+        for _ in 0..KeptFolder::MOST {
+            let mut next = opened(folder, "trio");
+            assert!(is_offered(&next));
+            press(&mut next, "\u{1b}");
+        }
+        assert!(!is_offered(&opened(folder, "trio")), "each is offered once");
+    }
+
+    #[test]
+    fn where_there_is_no_place_to_keep_work_the_person_is_told() {
+        let (scene, source) = Scene::open("trio").expect("a scene");
+        let mut explorer = Explorer::new(scene, &source, Options::default());
+        explorer.work_in(Workplace::of_process(None), &source);
+        let woken = alarm(&mut explorer);
+        press(&mut explorer, "x");
+        assert!(rest(&mut explorer, &woken), "there is something to say");
+        let said = explorer
+            .state
+            .message
+            .take()
+            .map(|m| m.text)
+            .unwrap_or_default();
+        assert!(said.contains("save it: there is no home folder"), "{said}");
+        let lost = explorer.finish().unwrap_err();
+        assert!(lost.contains("there is no home folder"), "{lost}");
     }
 
     #[test]

@@ -58,11 +58,7 @@ pub(crate) fn replace(state: &mut State, scene: Scene, source: &Source) {
     state.at.style = before.at.style;
     state.at.view = before.at.view;
     state.workplace = before.workplace;
-    if let Some(rescue) = before.rescue {
-        let folder = rescue.folder.clone();
-        state.rescue = Some(rescue);
-        keep::keep_in(state, &folder, source);
-    }
+    keep::keep_on(state, before.rescue, source);
     let about = state.scene().about.clone().unwrap_or_default();
     state.say(format!("{}. {about}", state.scene().name));
 }

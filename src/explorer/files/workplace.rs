@@ -4,6 +4,7 @@ use std::path::{Component, Path, PathBuf};
 
 use crate::door::typed;
 use crate::explorer::files::disk;
+use crate::explorer::files::kept::KeptFolder;
 use crate::lab::BenchQueue;
 
 /// The surroundings of an explorer. By default it has none: no name of a file reaches anything, and
@@ -16,6 +17,8 @@ pub struct Workplace {
     is_confined: bool,
     /// Where unsaved work is kept.
     pub state: Option<PathBuf>,
+    /// Who works here, where several share an account; else nothing.
+    person: String,
     /// The queue to measure in.
     pub queue: BenchQueue,
 }
@@ -26,6 +29,7 @@ impl Default for Workplace {
             folder: PathBuf::new(),
             is_confined: true,
             state: None,
+            person: String::new(),
             queue: BenchQueue::private(),
         }
     }
@@ -38,8 +42,28 @@ impl Workplace {
             folder: PathBuf::new(),
             is_confined: false,
             state,
+            person: String::new(),
             queue: BenchQueue::of_host(),
         }
+    }
+
+    /// The same for one of several people who share an account.
+    #[must_use]
+    pub fn of_person(self, person: String) -> Self {
+        Self { person, ..self }
+    }
+
+    /// Whether unsaved work is to be kept, with a folder for it or without.
+    pub(crate) fn keeps(&self) -> bool {
+        self.state.is_some() || !self.is_confined
+    }
+
+    /// Where it is kept, if there is a place.
+    pub(crate) fn kept_folder(&self) -> Option<KeptFolder> {
+        self.state.clone().map(|folder| KeptFolder {
+            folder,
+            person: self.person.clone(),
+        })
     }
 
     /// No place but a folder to keep unsaved work in.

@@ -7,6 +7,7 @@ use crate::explorer::command::Command;
 use crate::explorer::dialog::Confirmation;
 use crate::explorer::draw::pen::Pen;
 use crate::explorer::draw::theme::Theme;
+use crate::explorer::files::keep;
 use crate::explorer::key::Key;
 use crate::explorer::mode::overlay::{After, Overlay};
 use crate::explorer::state::State;
@@ -42,13 +43,9 @@ impl Overlay for Asking {
             Confirmation::Recover { path, .. } if key.is("o") => {
                 After::Do(Command::Recover(path.clone()))
             }
-            Confirmation::Recover { path, .. } if key.is("D") => {
-                After::Do(Command::Discard(path.clone()))
-            }
+            Confirmation::Recover { .. } if key.is("D") => After::Do(Command::Discard),
             Confirmation::Recover { .. } => {
-                state.say(
-                    "The unsaved work stays where it is; it is offered again at the next start.",
-                );
+                keep::put_off(state);
                 if key.is("esc") {
                     After::Close
                 } else {
