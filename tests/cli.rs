@@ -332,7 +332,7 @@ const ABSURD: &[(&str, &str)] = &[
     ("tutorial --plain --set radius=-1", "--set: radius is -1"),
     (
         "tutorial --plain --set size=1",
-        "--set size=1: “size” is no key",
+        "'--set <KEY=VALUE>': expected one of center.x",
     ),
     (
         "tutorial --plain --set extent.width=1e38",
