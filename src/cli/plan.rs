@@ -5,6 +5,7 @@ use std::ffi::OsString;
 use clap::Args;
 
 use super::print::{fit_in, size, view_in};
+use super::progress::Progress;
 use super::unseen::UnseenTerminal;
 use super::{Failure, Outcome, aspect, choice, from_one, write_out};
 use crate::explain::{self, FramePlan, PlanLine, Plans};
@@ -75,14 +76,19 @@ fn plans(arguments: &PlanArgs) -> Result<Plans, Failure> {
     let view = view_in(style, arguments.view).map_err(Failure::misused)?;
     let (size, shape) = fit_in(&scene, style, ROOM, arguments.size, arguments.aspect);
     let mut screen = FrameSeries::new(arguments, view, size, shape);
+    let mut progress = Progress::unheeded("plan", 3);
+    progress.go_on(0, "the whole picture");
     let mut frames = vec![screen.show(&scene, "whole", "the whole picture, on an empty screen")];
+    progress.go_on(1, "the cursor");
     frames.push(screen.show(&scene, "cursor", "the cursor has moved"));
+    progress.go_on(2, "one sphere");
     let step = usual_step(&scene);
     if let Some(body) = scene.bodies.get_mut(arguments.sphere - 1) {
         body.sphere.center.x += step;
         let what = format!("sphere {} has moved by one step", arguments.sphere);
         frames.push(screen.show(&scene, "sphere", what));
     }
+    progress.clear();
     Ok(Plans {
         scene: scene.name,
         width: size.width,
@@ -109,6 +115,8 @@ struct FrameSeries {
     frame: Frame,
     image: Image,
     terminal: UnseenTerminal,
+    /// The bytes of all cells of the last frame.
+    all: Option<usize>,
 }
 
 impl FrameSeries {
@@ -127,6 +135,7 @@ impl FrameSeries {
             frame: Frame::new(),
             image: Image::new(),
             terminal: UnseenTerminal::default(),
+            all: None,
         }
     }
 
@@ -148,12 +157,17 @@ impl FrameSeries {
     }
 
     fn bytes(&mut self) -> PlanLine {
-        let all = UnseenTerminal::default().show(&self.image) as u64;
-        let sent = self.terminal.show(&self.image) as u64;
+        let sent = self.terminal.show(&self.image);
+        let all = match self.all {
+            None => sent,
+            Some(all) if self.image.cells_changed() == 0 => all,
+            Some(_) => UnseenTerminal::default().show(&self.image),
+        };
+        self.all = Some(all);
         PlanLine::new(
             "bytes sent",
-            sent,
-            all.saturating_sub(sent),
+            sent as u64,
+            all.saturating_sub(sent) as u64,
             "of what all cells would take on an empty screen of 256 colours: a cell that the terminal shows already is not sent",
         )
     }

@@ -32,6 +32,16 @@ impl Progress {
         })
     }
 
+    /// A run that Ctrl-C ends at once, as it ends any program.
+    pub fn unheeded(what: &'static str, all: usize) -> Self {
+        Self {
+            what,
+            all,
+            shown: None,
+            interrupt: Arc::default(),
+        }
+    }
+
     /// Notes that the part `number`, from 0, is being worked on; whether to go on with it.
     pub fn go_on(&mut self, number: usize, name: &str) -> bool {
         if self.shown != Some(number) {
