@@ -5,7 +5,7 @@ use std::io::{self, ErrorKind, Write};
 use std::path::Path;
 
 use super::failure::{DONE, Failure, Outcome};
-use crate::door::shown;
+use crate::door::{plain, shown};
 use crate::text::{printable, printable_line};
 
 /// Writes a report to standard output, with nothing from outside in it that steers a terminal.
@@ -25,7 +25,10 @@ pub(super) fn write_picture(text: &str) -> Outcome {
 pub(super) fn unwritable(error: &io::Error) -> Result<(), Failure> {
     match error.kind() {
         ErrorKind::BrokenPipe => Ok(()),
-        _ => Err(Failure::invalid(format_args!("standard output: {error}"))),
+        _ => Err(Failure::invalid(format_args!(
+            "standard output: {}",
+            plain(error)
+        ))),
     }
 }
 
@@ -34,8 +37,13 @@ pub(super) fn save(path: Option<&Path>, contents: impl FnOnce() -> String) -> Re
     let Some(path) = path else {
         return Ok(());
     };
-    std::fs::write(path, contents())
-        .map_err(|error| Failure::invalid(format_args!("cannot write {}: {error}", path.display())))
+    std::fs::write(path, contents()).map_err(|error| {
+        Failure::invalid(format_args!(
+            "cannot write {}: {}",
+            path.display(),
+            plain(&error)
+        ))
+    })
 }
 
 /// Says a sentence on standard error. If nobody can read it, nobody is missing it.
