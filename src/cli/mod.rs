@@ -38,14 +38,14 @@ use output::{complain, save, unwritable, write_out, write_picture};
 #[command(version, about, args_conflicts_with_subcommands = true)]
 struct Arguments {
     #[command(subcommand)]
-    command: Option<Command>,
+    command: Option<CliCommand>,
 
     #[command(flatten)]
     explore: explore::Explore,
 }
 
 #[derive(Debug, Subcommand)]
-enum Command {
+enum CliCommand {
     Bench(bench::BenchArgs),
     Completions(completions::Completions),
     Grade(grade::GradeArgs),
@@ -70,16 +70,16 @@ pub fn main() -> ExitCode {
 fn run(arguments: &Arguments) -> Outcome {
     match &arguments.command {
         None => explore::run(&arguments.explore),
-        Some(Command::Completions(arguments)) => completions::run(arguments),
-        Some(Command::Bench(arguments)) => bench::run(arguments),
-        Some(Command::Grade(arguments)) => grade::run(arguments),
-        Some(Command::Plan(arguments)) => plan::run(arguments),
-        Some(Command::Print(arguments)) => print::run(arguments),
-        Some(Command::Scenes(arguments)) => scenes::run(arguments),
-        Some(Command::Solve(arguments)) => solve::run(arguments),
-        Some(Command::Stress(arguments)) => stress::run(arguments),
-        Some(Command::Tour(arguments)) => tour::run(arguments),
-        Some(Command::Worksheet(arguments)) => worksheet::run(arguments),
+        Some(CliCommand::Completions(arguments)) => completions::run(arguments),
+        Some(CliCommand::Bench(arguments)) => bench::run(arguments),
+        Some(CliCommand::Grade(arguments)) => grade::run(arguments),
+        Some(CliCommand::Plan(arguments)) => plan::run(arguments),
+        Some(CliCommand::Print(arguments)) => print::run(arguments),
+        Some(CliCommand::Scenes(arguments)) => scenes::run(arguments),
+        Some(CliCommand::Solve(arguments)) => solve::run(arguments),
+        Some(CliCommand::Stress(arguments)) => stress::run(arguments),
+        Some(CliCommand::Tour(arguments)) => tour::run(arguments),
+        Some(CliCommand::Worksheet(arguments)) => worksheet::run(arguments),
     }
 }
 

@@ -107,7 +107,7 @@ mod tests {
     use clap::Parser;
     use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 
-    use super::super::{Arguments, Command as Subcommand, Failure, explore, tour};
+    use super::super::{Arguments, CliCommand, Failure, explore, tour};
     use crate::explain::{Digits, lines, plain_text};
     use crate::explorer::{Explorer, Viewpoint, command_line};
     use crate::text::Glyphs;
@@ -118,7 +118,7 @@ mod tests {
         let arguments = Arguments::try_parse_from(all).map_err(Failure::misused)?;
         let mut explorer = match arguments.command {
             None => explore::opened(&arguments.explore, Ok)?.0,
-            Some(Subcommand::Tour(arguments)) => tour::opened(&arguments, Ok)?,
+            Some(CliCommand::Tour(arguments)) => tour::opened(&arguments, Ok)?,
             Some(other) => panic!("{other:?} opens no explorer"),
         };
         explorer.prepare(80, 24);
