@@ -1,6 +1,8 @@
 //! Rays and spheres: plain data in binary32, checked where it comes in.
 //!
-//! Nothing is computed here. The quadratic lives in [`crate::method`].
+//! Nothing is computed here but sums of vectors. The quadratic lives in [`crate::method`].
+
+pub mod vector;
 
 use std::fmt;
 

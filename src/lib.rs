@@ -5,6 +5,7 @@
 //!
 //! * [`system`]: what differs from one operating system to the next
 //! * [`text`]: text as people, programs and files write it: characters, numbers, lines, names
+//! * [`number`]: what formulas ask of numbers, and powers of two
 //! * [`random`]: numbers from a seed, the same on every machine
 //! * [`report`]: what a run found, in sentences and tables, in each format
 //! * [`door`]: files from outside, opened and read safely
@@ -25,6 +26,7 @@ pub mod explorer;
 pub mod geometry;
 pub mod lab;
 pub mod method;
+pub mod number;
 pub mod random;
 pub mod render;
 pub mod report;

@@ -1,5 +1,7 @@
 //! A seeded generator of numbers: the same on every machine, so no library function but √.
 
+use crate::number::power_of_two;
+
 /// `SplitMix64` (Steele, Lea, Flood, 2014): 2⁶⁴ steps, any seed.
 #[derive(Debug, Clone)]
 pub struct Random {
@@ -75,11 +77,6 @@ impl Random {
             }
         }
     }
-}
-
-/// 2ⁿ for −1022 ≤ n ≤ 1023.
-pub fn power_of_two(n: i32) -> f64 {
-    f64::from_bits(((n + 1023) as u64) << 52)
 }
 
 #[cfg(test)]

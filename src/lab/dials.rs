@@ -5,7 +5,8 @@
 
 use super::Problem;
 use super::families::{DrawnCase, aimed, typical, whole_frame};
-use crate::random::{Random, power_of_two};
+use crate::number::power_of_two;
+use crate::random::Random;
 
 /// The roots of a ray that was not yet rounded, near and far; none for a miss.
 pub type Intent = Option<[f64; 2]>;

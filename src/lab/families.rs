@@ -5,8 +5,10 @@
 
 use glam::Vec3;
 
+use crate::geometry::vector::dot;
 use crate::geometry::{Ray, Sphere};
-use crate::random::{Random, power_of_two};
+use crate::number::power_of_two;
+use crate::random::Random;
 
 /// A named kind of rays.
 #[derive(Debug, Clone, Copy)]
@@ -132,10 +134,6 @@ fn perpendicular(forward: [f64; 3], v: [f64; 3]) -> [f64; 3] {
     let across = [0, 1, 2].map(|i| v[i] - along * forward[i]);
     let length = dot(across, across).sqrt();
     across.map(|x| x / length)
-}
-
-fn dot(u: [f64; 3], v: [f64; 3]) -> f64 {
-    u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 }
 
 pub(super) fn typical(random: &mut Random) -> DrawnCase {

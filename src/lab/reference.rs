@@ -3,7 +3,7 @@
 
 use super::Problem;
 use crate::method::{Class, Precision, Solution, Surd, Truth, Which};
-use crate::random::power_of_two;
+use crate::number::power_of_two;
 
 /// The exact class and, unless it is a miss, both exact roots.
 #[derive(Debug, Clone, PartialEq)]

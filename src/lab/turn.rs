@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 
 use super::Dial;
 use crate::geometry::Sphere;
-use crate::random::power_of_two;
+use crate::number::power_of_two;
 use crate::scene::{Projection, Scene};
 
 /// A dial, and how far it is turned on a scene.

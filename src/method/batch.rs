@@ -12,10 +12,16 @@ use std::marker::PhantomData;
 
 use glam::Vec3;
 
+use super::citardauq::Citardauq;
+use super::double::Double;
 use super::exact::lanes::{self, Inputs, LANES};
 use super::exact::{self, Input, Stage};
+use super::formula::{self, Formula};
+use super::haines::Haines;
+use super::kahan::Kahan;
 use super::simd::{self, Kernel};
-use super::{Class, Method, Place, Solution, citardauq, double, haines, kahan, textbook};
+use super::textbook::Textbook;
+use super::{Class, Method, Place, Solution};
 use crate::geometry::{Ray, Sphere};
 
 /// A vector for each lane: three slices of equal length, or a [`Vec3`] that all lanes share.
@@ -303,10 +309,10 @@ impl<O: Vectors, D: Vectors, C: Vectors, R: Scalars> Batch<O, D, C, R> {
         }
     }
 
-    fn each<S: Single>(&self, out: &mut Solutions) {
+    fn each<F: Formula>(&self, out: &mut Solutions) {
         simd::dispatch(Each {
             batch: self,
-            single: PhantomData::<S>,
+            formula: PhantomData::<F>,
             out,
         });
     }
@@ -345,49 +351,21 @@ impl<O: Vectors, D: Vectors, C: Vectors, R: Scalars> Inputs for Batch<O, D, C, R
     }
 }
 
-/// A single call that is compiled into the loop that makes it.
-///
-/// A function that is passed as a value need not be: then each lane is a call out of the loop, and, with
-/// wide vectors, from their code into code without, which costs more than the work.
-trait Single {
-    fn solve(ray: &Ray, sphere: &Sphere) -> Solution;
-}
-
-macro_rules! single {
-    ($($method:ident $solve:path;)*) => { $(
-        struct $method;
-
-        impl Single for $method {
-            #[inline(always)]
-            fn solve(ray: &Ray, sphere: &Sphere) -> Solution {
-                $solve(ray, sphere)
-            }
-        }
-    )* };
-}
-
-single! {
-    Textbook textbook::solve;
-    Citardauq citardauq::solve;
-    Haines haines::solve_in_loop;
-    Kahan kahan::solve;
-    Double double::solve_in_loop;
-}
-
-/// A loop over the single call.
-struct Each<'a, B, S> {
+/// A loop over the single call, which is compiled into it: a call of its own for each lane, from the code
+/// for wide vectors into code without, costs more than the work.
+struct Each<'a, B, F> {
     batch: &'a B,
-    single: PhantomData<S>,
+    formula: PhantomData<F>,
     out: &'a mut Solutions,
 }
 
-impl<O, D, C, R, S> Kernel for Each<'_, Batch<O, D, C, R>, S>
+impl<O, D, C, R, F> Kernel for Each<'_, Batch<O, D, C, R>, F>
 where
     O: Vectors,
     D: Vectors,
     C: Vectors,
     R: Scalars,
-    S: Single,
+    F: Formula,
 {
     #[inline(always)]
     fn run(self) {
@@ -396,7 +374,7 @@ where
         let out = out.class.iter_mut().zip(&mut out.place).zip(roots);
         for (i, ((class, place), (near, far))) in out.enumerate() {
             let (ray, sphere) = self.batch.get(i);
-            let solution = S::solve(&ray, &sphere);
+            let solution = formula::solve_in_loop::<F>(&ray, &sphere);
             (*class, *place) = (solution.class, solution.place);
             (*near, *far) = (solution.near, solution.far);
         }

@@ -9,6 +9,7 @@ mod double;
 mod dyadic;
 pub mod exact;
 pub mod format;
+mod formula;
 mod haines;
 mod kahan;
 mod number;
@@ -30,6 +31,11 @@ use std::cmp::Ordering;
 use std::fmt;
 
 use crate::geometry::{Ray, Sphere};
+use citardauq::Citardauq;
+use double::Double;
+use haines::Haines;
+use kahan::Kahan;
+use textbook::Textbook;
 
 /// One way to evaluate the quadratic.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
@@ -80,11 +86,11 @@ impl Method {
     /// Where the line of `ray` meets `sphere`.
     pub fn solve(self, ray: &Ray, sphere: &Sphere) -> Solution {
         match self {
-            Self::Textbook => textbook::solve(ray, sphere),
-            Self::Citardauq => citardauq::solve(ray, sphere),
-            Self::Haines => haines::solve(ray, sphere),
-            Self::Kahan => kahan::solve(ray, sphere),
-            Self::Double => double::solve(ray, sphere),
+            Self::Textbook => formula::solve::<Textbook>(ray, sphere),
+            Self::Citardauq => formula::solve::<Citardauq>(ray, sphere),
+            Self::Haines => formula::solve::<Haines>(ray, sphere),
+            Self::Kahan => formula::solve::<Kahan>(ray, sphere),
+            Self::Double => formula::solve::<Double>(ray, sphere),
             Self::Exact => exact::solve(ray, sphere),
         }
     }
@@ -92,11 +98,11 @@ impl Method {
     /// A, B, C and Δ as this method's own arithmetic has them.
     pub fn coefficients(self, ray: &Ray, sphere: &Sphere) -> Coefficients {
         match self {
-            Self::Textbook => textbook::coefficients(ray, sphere),
-            Self::Citardauq => citardauq::coefficients(ray, sphere),
-            Self::Haines => haines::coefficients(ray, sphere),
-            Self::Kahan => kahan::coefficients(ray, sphere),
-            Self::Double => double::coefficients(ray, sphere),
+            Self::Textbook => formula::coefficients::<Textbook>(ray, sphere),
+            Self::Citardauq => formula::coefficients::<Citardauq>(ray, sphere),
+            Self::Haines => formula::coefficients::<Haines>(ray, sphere),
+            Self::Kahan => formula::coefficients::<Kahan>(ray, sphere),
+            Self::Double => formula::coefficients::<Double>(ray, sphere),
             Self::Exact => exact::coefficients(ray, sphere),
         }
     }
@@ -108,11 +114,11 @@ impl Method {
 
     fn steps(self, ray: &Ray, sphere: &Sphere, truth: &Truth) -> Vec<trace::Step> {
         match self {
-            Self::Textbook => textbook::steps(ray, sphere, truth),
-            Self::Citardauq => citardauq::steps(ray, sphere, truth),
-            Self::Haines => haines::steps(ray, sphere, truth),
-            Self::Kahan => kahan::steps(ray, sphere, truth),
-            Self::Double => double::steps(ray, sphere, truth),
+            Self::Textbook => formula::steps::<Textbook>(ray, sphere, truth),
+            Self::Citardauq => formula::steps::<Citardauq>(ray, sphere, truth),
+            Self::Haines => formula::steps::<Haines>(ray, sphere, truth),
+            Self::Kahan => formula::steps::<Kahan>(ray, sphere, truth),
+            Self::Double => formula::steps::<Double>(ray, sphere, truth),
             Self::Exact => trace::exact::steps(ray, sphere, truth),
         }
     }

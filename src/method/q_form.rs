@@ -1,34 +1,36 @@
 //! The roots of At² + 2bt + C = 0 without cancellation, given the reduced discriminant
 //! D = b² − AC = Δ/4 ≥ 0: the quadratic formula solved for the sum whose terms have one sign.
 
-use super::number::{Input, Number, dot, sub};
+use super::formula::Formula;
+use super::number::{Input, Scalar};
 use super::tape::{Float, Traced};
 use super::trace::{self, Line, Steps};
 use super::truth::Truth;
-use super::{Class, Precision, Solution};
+use super::{Class, Solution};
+use crate::geometry::vector::{dot, sub};
 
 /// The roots and what they are made of.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Roots<T> {
+pub(super) struct QFormRoots<T> {
     /// √D.
-    pub root: T,
+    root: T,
     /// q = −(b + sign(b)√D), with sign(0) = +1.
-    pub q: T,
+    q: T,
     /// The smaller root.
     pub near: T,
     /// The larger root.
     pub far: T,
     /// Which quotient each root is.
-    pub form: Form,
+    form: Form,
     /// Whether b < 0.
-    pub b_negative: bool,
+    b_negative: bool,
 }
 
 /// Which quotients the near and the far root are.
 ///
 /// Without rounding the first is for b ≥ 0 and the second for b < 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Form {
+enum Form {
     /// near = q/A, far = C/q.
     NearOverA,
     /// near = C/q, far = q/A.
@@ -39,8 +41,8 @@ pub(super) enum Form {
 
 /// Both roots; near ≤ far unless one of them is NaN.
 #[inline]
-pub(super) fn roots<T: Number>(a: T, b: T, c: T, reduced: T) -> Roots<T> {
-    let zero = T::constant(0.0);
+fn roots<T: Scalar>(a: T, b: T, c: T, reduced: T) -> QFormRoots<T> {
+    let zero = T::of(0.0);
     let root = reduced.sqrt();
     let signed_root = if b < zero { -root } else { root };
     let q = -(b + signed_root);
@@ -58,7 +60,7 @@ pub(super) fn roots<T: Number>(a: T, b: T, c: T, reduced: T) -> Roots<T> {
         Form::FarOverA if near > far => (far, near, Form::NearOverA),
         form => (near, far, form),
     };
-    Roots {
+    QFormRoots {
         root,
         q,
         near,
@@ -70,7 +72,7 @@ pub(super) fn roots<T: Number>(a: T, b: T, c: T, reduced: T) -> Roots<T> {
 
 /// The coefficients that every method with half-b forms alike.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Coefficients<T> {
+pub(super) struct HalfB<T> {
     /// o = p0 − c.
     pub o: [T; 3],
     /// A = d·d.
@@ -87,7 +89,7 @@ pub(super) struct Coefficients<T> {
 
 /// A, b and C of a ray and a sphere.
 #[inline]
-pub(super) fn coefficients<T: Number>(input: &Input<T>) -> Coefficients<T> {
+fn coefficients<T: Scalar>(input: &Input<T>) -> HalfB<T> {
     let Input { p0, d, center, r } = *input;
 
     let o = sub(p0, center);
@@ -96,36 +98,101 @@ pub(super) fn coefficients<T: Number>(input: &Input<T>) -> Coefficients<T> {
     let oo = dot(o, o);
     let rr = r * r;
     let c = oo - rr;
-    Coefficients { o, a, b, oo, rr, c }
+    HalfB { o, a, b, oo, rr, c }
 }
 
-/// The answer in binary32: the class by the sign of D, the roots by the q-form.
-#[inline]
-pub(super) fn solution(k: &Coefficients<f32>, reduced: f32) -> Solution {
-    let class = Class::of_discriminant(reduced.into());
-    if !class.meets() {
-        return Solution::without_roots(class);
+/// A method with half-b and the q-form: what it has of its own is how it comes to D.
+pub(super) trait Reduced {
+    /// What it computes with.
+    type Float: RoundsRoots;
+    /// What D is made of, in the order of the mathematics.
+    type Parts<T: Scalar>: Copy;
+
+    /// The formula itself: D = Δ/4, and what it is made of.
+    fn reduced<T: Scalar>(input: &Input<T>, k: &HalfB<T>) -> (Self::Parts<T>, T);
+    /// The steps from C to D.
+    fn steps<'t>(
+        steps: &mut Steps<'t>,
+        parts: Self::Parts<Traced<'t, Self::Float>>,
+        reduced: Traced<'t, Self::Float>,
+    );
+}
+
+/// A float whose roots by the q-form become the answer in binary32.
+pub(super) trait RoundsRoots: Float {
+    /// The answer.
+    fn solution(class: Class, roots: &QFormRoots<Self>) -> Solution;
+    /// The steps from D to the answer.
+    fn steps<'t>(steps: &mut Steps<'t>, roots: &QFormRoots<Traced<'t, Self>>, truth: &Truth);
+}
+
+impl RoundsRoots for f32 {
+    #[inline]
+    fn solution(class: Class, roots: &QFormRoots<Self>) -> Solution {
+        Solution::with_roots(class, roots.near, roots.far)
     }
-    let roots = roots(k.a, k.b, k.c, reduced);
-    Solution::with_roots(class, roots.near, roots.far)
+
+    fn steps<'t>(steps: &mut Steps<'t>, roots: &QFormRoots<Traced<'t, Self>>, truth: &Truth) {
+        root_steps(steps, roots, ["near", "far"], truth);
+    }
 }
 
-/// What is told of the coefficients in binary32: A, B = 2b, C and Δ = 4D.
-pub(super) fn reported(k: &Coefficients<f32>, reduced: f32) -> super::Coefficients {
-    super::Coefficients {
-        precision: Precision::Binary32,
-        a: k.a.into(),
-        b: (2.0 * k.b).into(),
-        c: k.c.into(),
-        discriminant: (4.0 * reduced).into(),
+/// The coefficients, what D is made of, and D.
+pub(super) struct Quantities<T, P> {
+    k: HalfB<T>,
+    parts: P,
+    reduced: T,
+}
+
+impl<T: Scalar, P> Quantities<T, P> {
+    #[inline]
+    fn roots(&self) -> QFormRoots<T> {
+        roots(self.k.a, self.k.b, self.k.c, self.reduced)
+    }
+}
+
+impl<M: Reduced> Formula for M {
+    type Float = M::Float;
+    type Quantities<T: Scalar> = Quantities<T, M::Parts<T>>;
+
+    #[inline]
+    fn quantities<T: Scalar>(input: &Input<T>) -> Self::Quantities<T> {
+        let k = coefficients(input);
+        let (parts, reduced) = M::reduced(input, &k);
+        Quantities { k, parts, reduced }
+    }
+
+    #[inline]
+    fn discriminant<T: Scalar>(quantities: &Self::Quantities<T>) -> T {
+        quantities.reduced
+    }
+
+    /// B = 2b, Δ = 4D.
+    fn coefficients<T: Scalar>(Quantities { k, reduced, .. }: &Self::Quantities<T>) -> [T; 4] {
+        [k.a, T::of(2.0) * k.b, k.c, T::of(4.0) * *reduced]
+    }
+
+    #[inline]
+    fn solution(class: Class, quantities: &Self::Quantities<Self::Float>) -> Solution {
+        M::Float::solution(class, &quantities.roots())
+    }
+
+    fn steps<'t>(steps: &mut Steps<'t>, quantities: &Self::Quantities<Traced<'t, Self::Float>>) {
+        coefficient_steps(steps, &quantities.k);
+        <M as Reduced>::steps(steps, quantities.parts, quantities.reduced);
+    }
+
+    fn root_steps<'t>(
+        steps: &mut Steps<'t>,
+        quantities: &Self::Quantities<Traced<'t, Self::Float>>,
+        truth: &Truth,
+    ) {
+        M::Float::steps(steps, &quantities.roots(), truth);
     }
 }
 
 /// The steps from o to C.
-pub(super) fn coefficient_steps<'t, F: Float>(
-    steps: &mut Steps<'t>,
-    k: &Coefficients<Traced<'t, F>>,
-) {
+fn coefficient_steps<'t, F: Float>(steps: &mut Steps<'t>, k: &HalfB<Traced<'t, F>>) {
     steps.vector(trace::O, k.o);
     steps.scalar(trace::A, k.a);
     steps.scalar(
@@ -143,23 +210,10 @@ pub(super) fn coefficient_steps<'t, F: Float>(
     steps.scalar(trace::C, k.c);
 }
 
-/// The steps from √D to the roots in binary32, if the line meets the sphere.
-pub(super) fn solution_steps<'t>(
-    steps: &mut Steps<'t>,
-    k: &Coefficients<Traced<'t, f32>>,
-    reduced: Traced<'t, f32>,
-    truth: &Truth,
-) {
-    if Class::of_discriminant(reduced.value().into()).meets() {
-        let roots = roots(k.a, k.b, k.c, reduced);
-        root_steps(steps, &roots, ["near", "far"], truth);
-    }
-}
-
 /// The steps from √D to the two quotients, which are called `names`, the near one first.
 pub(super) fn root_steps<'t, F: Float>(
     steps: &mut Steps<'t>,
-    roots: &Roots<Traced<'t, F>>,
+    roots: &QFormRoots<Traced<'t, F>>,
     names: [&'static str; 2],
     truth: &Truth,
 ) {

@@ -11,6 +11,7 @@ use dashu_int::{IBig, UBig};
 
 use super::Precision;
 use super::dyadic::Dyadic;
+use crate::number::power_of_two;
 
 /// The number (x + y√n)/z: z > 0, n ≥ 0, and y = 0 unless n is needed.
 #[derive(Debug, Clone)]
@@ -341,19 +342,10 @@ fn round_magnitude(m: &UBig, exponent: i64, exact: bool, precision: Precision) -
     // `kept` has at most 53 bits: the conversion is exact.
     let kept = u64::try_from(kept).unwrap_or(u64::MAX);
     let rounded = kept + u64::from(half && (below || kept % 2 == 1));
-    let value = rounded as f64 * power_of_two(unit);
+    let value = rounded as f64 * power_of_two(unit as i32);
     match precision {
         Precision::Binary32 => f64::from(value as f32),
         Precision::Binary64 => value,
-    }
-}
-
-/// 2^k for −1074 ≤ k ≤ 1023.
-fn power_of_two(k: i64) -> f64 {
-    if k >= -1022 {
-        f64::from_bits(((k + 1023) as u64) << 52)
-    } else {
-        f64::from_bits(1 << (k + 1074))
     }
 }
 

@@ -9,11 +9,12 @@ use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::Precision;
-use super::number::{Fused, Number};
+use super::number::Scalar;
 use super::surd::Surd;
+use crate::number::Number;
 
 /// A floating-point type whose operations a tape can record.
-pub(super) trait Float: Number + Into<f64> {
+pub(super) trait Float: Scalar + From<f32> + Into<f64> {
     const PRECISION: Precision;
 }
 
@@ -134,7 +135,7 @@ impl<F: Float> Traced<'_, F> {
 
     fn record<const N: usize>(operation: Operation, operands: [Self; N], value: F) -> Self {
         let Some((tape, _)) = operands.iter().find_map(|o| o.place) else {
-            return Self::constant_of(value);
+            return Self::constant(value);
         };
         let exact = operands.map(Self::exact);
         let exact = match (operation, exact.each_ref().map(Option::as_ref).as_slice()) {
@@ -153,7 +154,7 @@ impl<F: Float> Traced<'_, F> {
         tape.push(Some(operation), operands, value, exact)
     }
 
-    fn constant_of(value: F) -> Self {
+    fn constant(value: F) -> Self {
         Self { value, place: None }
     }
 }
@@ -192,8 +193,8 @@ impl<F: Float> PartialOrd for Traced<'_, F> {
 }
 
 impl<F: Float> Number for Traced<'_, F> {
-    fn constant(value: f32) -> Self {
-        Self::constant_of(F::constant(value))
+    fn of(value: f64) -> Self {
+        Self::constant(F::of(value))
     }
 
     fn sqrt(self) -> Self {
@@ -201,7 +202,7 @@ impl<F: Float> Number for Traced<'_, F> {
     }
 }
 
-impl<F: Float + Fused> Fused for Traced<'_, F> {
+impl<F: Float> Scalar for Traced<'_, F> {
     fn mul_add(self, factor: Self, term: Self) -> Self {
         let value = self.value.mul_add(factor.value, term.value);
         Self::record(Operation::MulAdd, [self, factor, term], value)
@@ -219,15 +220,15 @@ mod tests {
         let difference = (x + y) - x;
         assert_eq!(difference.value(), 0.0);
         assert_eq!(difference.exact().unwrap().to_f64(), 1.0);
-        let third = y / Traced::constant(3.0);
-        let whole = third * Traced::constant(3.0);
+        let third = y / Traced::of(3.0);
+        let whole = third * Traced::of(3.0);
         assert_eq!(whole.exact().unwrap().to_f64(), 1.0);
-        let root = Traced::constant(2.0) * y;
+        let root = Traced::of(2.0) * y;
         let two = root.sqrt() * root.sqrt();
         assert_ne!(two.value(), 2.0);
         assert_eq!(two.exact().unwrap().to_f64(), 2.0);
         assert!((-root).sqrt().exact().is_none());
-        let product = Fused::mul_add(x, x, -y);
+        let product = Scalar::mul_add(x, x, -y);
         assert_eq!(product.value(), 281_474_976_710_656.0);
         assert_eq!(product.exact().unwrap().to_f64(), 281_474_976_710_655.0);
     }

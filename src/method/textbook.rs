@@ -1,15 +1,19 @@
 //! The textbook formula in binary32, operation for operation as in the tutorial's
 //! `intersectRaySphere`, and the roots that the tutorial leaves to its reader.
 
-use super::number::{Input, Number, dot, sub};
-use super::tape::Tape;
-use super::trace::{self, Line, Step, Steps};
+use super::formula::Formula;
+use super::number::{Input, Scalar};
+use super::tape::Traced;
+use super::trace::{self, Line, Steps};
 use super::truth::Truth;
-use super::{Class, Coefficients, Precision, Solution};
-use crate::geometry::{Ray, Sphere};
+use super::{Class, Solution};
+use crate::geometry::vector::{dot, sub};
+
+/// The method.
+pub(super) struct Textbook;
 
 /// Every quantity that the formula names, in the order of the mathematics.
-struct Quadratic<T> {
+pub(super) struct Quantities<T> {
     o: [T; 3],
     a: T,
     b: T,
@@ -21,133 +25,120 @@ struct Quadratic<T> {
     discriminant: T,
 }
 
+/// √Δ and the two roots, (−B ± √Δ) / 2A.
 #[inline]
-fn quadratic<T: Number>(input: &Input<T>) -> Quadratic<T> {
-    let Input { p0, d, center, r } = *input;
-    let [two, four] = [2.0, 4.0].map(T::constant);
-
-    let o = sub(p0, center);
-    let a = dot(d, d);
-    let b = two * dot(d, o);
-    let oo = dot(o, o);
-    let rr = r * r;
-    let c = oo - rr;
-    let bb = b * b;
-    let four_ac = four * a * c;
-    let discriminant = bb - four_ac;
-    Quadratic {
-        o,
-        a,
-        b,
-        oo,
-        rr,
-        c,
-        bb,
-        four_ac,
-        discriminant,
-    }
-}
-
-/// √Δ and the two roots.
-struct Roots<T> {
-    root: T,
-    near: T,
-    far: T,
-}
-
-#[inline]
-fn roots<T: Number>(a: T, b: T, discriminant: T) -> Roots<T> {
-    let two = T::constant(2.0);
+fn roots<T: Scalar>(quantities: &Quantities<T>) -> [T; 3] {
+    let Quantities {
+        a, b, discriminant, ..
+    } = *quantities;
+    let two = T::of(2.0);
     let root = discriminant.sqrt();
     let near = (-b - root) / (two * a);
     let far = (-b + root) / (two * a);
-    Roots { root, near, far }
+    [root, near, far]
 }
 
-/// Class and roots by (−B ± √Δ) / 2A.
-pub(super) fn solve(ray: &Ray, sphere: &Sphere) -> Solution {
-    let Quadratic {
-        a, b, discriminant, ..
-    } = quadratic(&Input::new(ray, sphere, |x| x));
-    let class = Class::of_discriminant(discriminant.into());
-    if !class.meets() {
-        return Solution::without_roots(class);
+impl Formula for Textbook {
+    type Float = f32;
+    type Quantities<T: Scalar> = Quantities<T>;
+
+    #[inline]
+    fn quantities<T: Scalar>(input: &Input<T>) -> Quantities<T> {
+        let Input { p0, d, center, r } = *input;
+        let [two, four] = [2.0, 4.0].map(T::of);
+
+        let o = sub(p0, center);
+        let a = dot(d, d);
+        let b = two * dot(d, o);
+        let oo = dot(o, o);
+        let rr = r * r;
+        let c = oo - rr;
+        let bb = b * b;
+        let four_ac = four * a * c;
+        let discriminant = bb - four_ac;
+        Quantities {
+            o,
+            a,
+            b,
+            oo,
+            rr,
+            c,
+            bb,
+            four_ac,
+            discriminant,
+        }
     }
-    let Roots { near, far, .. } = roots(a, b, discriminant);
-    Solution::with_roots(class, near, far)
-}
 
-/// A, B, C and Δ in binary32.
-pub(super) fn coefficients(ray: &Ray, sphere: &Sphere) -> Coefficients {
-    let Quadratic {
-        a,
-        b,
-        c,
-        discriminant,
-        ..
-    } = quadratic(&Input::new(ray, sphere, |x| x));
-    Coefficients {
-        precision: Precision::Binary32,
-        a: a.into(),
-        b: b.into(),
-        c: c.into(),
-        discriminant: discriminant.into(),
+    #[inline]
+    fn discriminant<T: Scalar>(quantities: &Quantities<T>) -> T {
+        quantities.discriminant
     }
-}
 
-/// The derivation, by the same code over a number that keeps record.
-pub(super) fn steps(ray: &Ray, sphere: &Sphere, truth: &Truth) -> Vec<Step> {
-    let tape = Tape::default();
-    let input = Input::new(ray, sphere, |x| tape.input(x));
-    let mut steps = Steps::new(&tape, &input);
-    let quadratic = quadratic(&input);
-    steps.vector(trace::O, quadratic.o);
-    steps.scalar(trace::A, quadratic.a);
-    steps.scalar(
-        Line {
-            symbol: "B",
-            formula: "2 d·o",
-            template: "2·({d.x}·{o.x} + {d.y}·{o.y} + {d.z}·{o.z})",
-            code: "let b = two * dot(d, o);",
-            why: "What multiplies t: below 0 if the ray comes nearer to the centre as it starts.",
-        },
-        quadratic.b,
-    );
-    steps.scalar(trace::OO, quadratic.oo);
-    steps.scalar(trace::RR, quadratic.rr);
-    steps.scalar(trace::C, quadratic.c);
-    steps.scalar(
-        Line {
-            symbol: "B²",
-            formula: "B·B",
-            template: "{B}²",
-            code: "let bb = b * b;",
-            why: "The first half of the discriminant.",
-        },
-        quadratic.bb,
-    );
-    steps.scalar(
-        Line {
-            symbol: "4AC",
-            formula: "4·A·C",
-            template: "4·{A}·{C}",
-            code: "let four_ac = four * a * c;",
-            why: "The second half: below 0 if the ray starts inside.",
-        },
-        quadratic.four_ac,
-    );
-    steps.scalar(
-        Line {
-            symbol: "Δ",
-            formula: "B² − 4AC",
-            template: "{B²} − {4AC}",
-            code: "let discriminant = bb - four_ac;",
-            why: "The discriminant: below 0 a miss, 0 a single point, above 0 two points.",
-        },
-        quadratic.discriminant,
-    );
-    if Class::of_discriminant(quadratic.discriminant.value().into()).meets() {
-        let roots = roots(quadratic.a, quadratic.b, quadratic.discriminant);
+    fn coefficients<T: Scalar>(quantities: &Quantities<T>) -> [T; 4] {
+        let Quantities { a, b, c, .. } = *quantities;
+        [a, b, c, quantities.discriminant]
+    }
+
+    #[inline]
+    fn solution(class: Class, quantities: &Quantities<f32>) -> Solution {
+        let [_, near, far] = roots(quantities);
+        Solution::with_roots(class, near, far)
+    }
+
+    fn steps<'t>(steps: &mut Steps<'t>, quantities: &Quantities<Traced<'t, f32>>) {
+        steps.vector(trace::O, quantities.o);
+        steps.scalar(trace::A, quantities.a);
+        steps.scalar(
+            Line {
+                symbol: "B",
+                formula: "2 d·o",
+                template: "2·({d.x}·{o.x} + {d.y}·{o.y} + {d.z}·{o.z})",
+                code: "let b = two * dot(d, o);",
+                why: "What multiplies t: below 0 if the ray comes nearer to the centre as it starts.",
+            },
+            quantities.b,
+        );
+        steps.scalar(trace::OO, quantities.oo);
+        steps.scalar(trace::RR, quantities.rr);
+        steps.scalar(trace::C, quantities.c);
+        steps.scalar(
+            Line {
+                symbol: "B²",
+                formula: "B·B",
+                template: "{B}²",
+                code: "let bb = b * b;",
+                why: "The first half of the discriminant.",
+            },
+            quantities.bb,
+        );
+        steps.scalar(
+            Line {
+                symbol: "4AC",
+                formula: "4·A·C",
+                template: "4·{A}·{C}",
+                code: "let four_ac = four * a * c;",
+                why: "The second half: below 0 if the ray starts inside.",
+            },
+            quantities.four_ac,
+        );
+        steps.scalar(
+            Line {
+                symbol: "Δ",
+                formula: "B² − 4AC",
+                template: "{B²} − {4AC}",
+                code: "let discriminant = bb - four_ac;",
+                why: "The discriminant: below 0 a miss, 0 a single point, above 0 two points.",
+            },
+            quantities.discriminant,
+        );
+    }
+
+    fn root_steps<'t>(
+        steps: &mut Steps<'t>,
+        quantities: &Quantities<Traced<'t, f32>>,
+        truth: &Truth,
+    ) {
+        let [root, near, far] = roots(quantities);
         steps.scalar(
             Line {
                 symbol: "√Δ",
@@ -156,7 +147,7 @@ pub(super) fn steps(ray: &Ray, sphere: &Sphere, truth: &Truth) -> Vec<Step> {
                 code: "let root = discriminant.sqrt();",
                 why: "Real only because Δ is not below 0.",
             },
-            roots.root,
+            root,
         );
         steps.root(
             Line {
@@ -166,7 +157,7 @@ pub(super) fn steps(ray: &Ray, sphere: &Sphere, truth: &Truth) -> Vec<Step> {
                 code: "let near = (-b - root) / (two * a);",
                 why: "The smaller root: where the line enters the sphere.",
             },
-            roots.near,
+            near,
             truth.near(),
         );
         steps.root(
@@ -177,9 +168,8 @@ pub(super) fn steps(ray: &Ray, sphere: &Sphere, truth: &Truth) -> Vec<Step> {
                 code: "let far = (-b + root) / (two * a);",
                 why: "The larger root: where the line leaves the sphere.",
             },
-            roots.far,
+            far,
             truth.far(),
         );
     }
-    steps.finish()
 }

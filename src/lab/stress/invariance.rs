@@ -5,7 +5,7 @@ use crate::geometry::{Ray, Sphere};
 use crate::lab::families::Family;
 use crate::lab::{Problem, Reference};
 use crate::method::{Method, Solution};
-use crate::random::power_of_two;
+use crate::number::power_of_two;
 
 /// One thing that must hold, for one method.
 #[derive(Debug, Clone, PartialEq)]

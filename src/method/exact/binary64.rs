@@ -5,37 +5,12 @@
 
 use super::error_free::{two_difference, two_square, two_sum};
 use super::real::Real;
-use crate::geometry::{Ray, Sphere};
+use crate::geometry::vector::{cross, dot};
 use crate::method::Class;
+pub use crate::method::number::Input;
 
 /// u = 2⁻⁵³, the unit roundoff of binary64.
 pub const U: f64 = <f64 as Real>::U;
-
-/// One ray and one sphere: binary32 numbers held in binary64.
-#[derive(Debug, Clone, Copy)]
-pub struct Input<T> {
-    /// Where the ray starts.
-    pub p0: [T; 3],
-    /// d, the direction.
-    pub d: [T; 3],
-    /// c, the centre of the sphere.
-    pub center: [T; 3],
-    /// r, the radius.
-    pub r: T,
-}
-
-impl Input<f64> {
-    /// The numbers of this ray and this sphere, which binary64 holds exactly.
-    #[inline(always)]
-    pub fn new(ray: &Ray, sphere: &Sphere) -> Self {
-        Self {
-            p0: ray.origin.to_array().map(f64::from),
-            d: ray.direction.to_array().map(f64::from),
-            center: sphere.center.to_array().map(f64::from),
-            r: sphere.radius.into(),
-        }
-    }
-}
 
 /// D = Δ/4 with a bound on its error, and what both come from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -311,18 +286,4 @@ pub fn double_root(estimate: &Estimate<f64>) -> Roots<f64> {
         great: root,
         small: root,
     }
-}
-
-#[inline(always)]
-fn dot<T: Real>(u: [T; 3], v: [T; 3]) -> T {
-    (u[0] * v[0] + u[1] * v[1]) + u[2] * v[2]
-}
-
-#[inline(always)]
-fn cross<T: Real>(u: [T; 3], v: [T; 3]) -> [T; 3] {
-    [
-        u[1] * v[2] - u[2] * v[1],
-        u[2] * v[0] - u[0] * v[2],
-        u[0] * v[1] - u[1] * v[0],
-    ]
 }

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 
 use super::binary64::{Estimate, Input, U};
 use super::rounding::{Quadratic, Signs};
-use super::whole::power_of_two;
+use crate::number::power_of_two;
 
 /// Words of A, b and C: multiples of 2⁻²⁹⁸ below 2²⁶⁰.
 const SINGLE: usize = 9;

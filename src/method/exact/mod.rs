@@ -150,7 +150,7 @@ pub struct Record {
 /// range, +0 for what rounds to zero), for finite numbers, d ≠ 0 and r ≥ 0.
 #[inline]
 pub fn solve(ray: &Ray, sphere: &Sphere) -> Solution {
-    let input = Input::new(ray, sphere);
+    let input = Input::new(ray, sphere, f64::from);
     let discriminant = binary64::discriminant(&input);
     match discriminant.class() {
         Some(Class::Miss) => return Solution::MISS,
@@ -167,14 +167,14 @@ pub fn solve(ray: &Ray, sphere: &Sphere) -> Solution {
 
 /// The answer of [`solve`], and which stage settled what.
 pub fn solve_staged(ray: &Ray, sphere: &Sphere) -> (Solution, Stages) {
-    let input = Input::new(ray, sphere);
+    let input = Input::new(ray, sphere, f64::from);
     let discriminant = binary64::discriminant(&input);
     settle(&Stage::ALL, &input, &discriminant, |_| ())
 }
 
 /// The answer of [`solve`], and all that led to it.
 pub fn record(ray: &Ray, sphere: &Sphere) -> Record {
-    let input = Input::new(ray, sphere);
+    let input = Input::new(ray, sphere, f64::from);
     let discriminant = binary64::discriminant(&input);
     let mut findings = Vec::with_capacity(Stage::ALL.len());
     let (solution, stages) = settle(&Stage::ALL, &input, &discriminant, |found| {
@@ -229,7 +229,7 @@ fn exact_estimate(input: &Input<f64>) -> Estimate<f64> {
 pub fn coefficients(ray: &Ray, sphere: &Sphere) -> Coefficients {
     let Estimate {
         a, half_b, c, d, ..
-    } = exact_estimate(&Input::new(ray, sphere));
+    } = exact_estimate(&Input::new(ray, sphere, f64::from));
     Coefficients {
         precision: Precision::Binary64,
         a,

@@ -3,17 +3,10 @@
 //!
 //! Stage 1 is written once over [`Real`], its constants in units of the format's roundoff.
 
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use crate::number::Number;
 
 /// A floating-point format whose operations round to nearest.
-pub trait Real:
-    Copy
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
-    + Neg<Output = Self>
-{
+pub trait Real: Number {
     /// u, the unit roundoff: half the distance from 1 to the next number.
     const U: f64;
     /// ε: how far a direct root may be from the exact one, relatively, where it is certain.
@@ -22,12 +15,8 @@ pub trait Real:
     /// number into two halves.
     const SPLITTER: f64;
 
-    /// The nearest number of the format.
-    fn of(value: f64) -> Self;
     /// The magnitude.
     fn abs(self) -> Self;
-    /// The square root, rounded once.
-    fn sqrt(self) -> Self;
     /// The magnitude with the sign of `other`.
     fn copysign(self, other: Self) -> Self;
 }
@@ -39,18 +28,8 @@ impl Real for f64 {
     const SPLITTER: f64 = 134_217_729.0;
 
     #[inline(always)]
-    fn of(value: f64) -> Self {
-        value
-    }
-
-    #[inline(always)]
     fn abs(self) -> Self {
         self.abs()
-    }
-
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        self.sqrt()
     }
 
     #[inline(always)]

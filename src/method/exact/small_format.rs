@@ -13,6 +13,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use super::binary64::{self, Bounded, Discriminant, Estimate, Input, Roots};
 use super::real::Real;
 use crate::method::Class;
+use crate::number::Number;
 
 /// A number of P bits, rounded to nearest with ties to even, of any exponent.
 ///
@@ -65,20 +66,23 @@ impl<const P: u32> Neg for Small<P> {
     }
 }
 
+impl<const P: u32> Number for Small<P> {
+    fn of(value: f64) -> Self {
+        Self::rounded(value)
+    }
+    fn sqrt(self) -> Self {
+        Self::rounded(self.0.sqrt())
+    }
+}
+
 impl<const P: u32> Real for Small<P> {
     const U: f64 = 1.0 / (1_u64 << P) as f64;
     /// As far above u as leaves the roundings that the derivation counts as a part of ε small.
     const DIRECT_ERROR: f64 = 64.0 * Self::U;
     const SPLITTER: f64 = (1_u64 << P.div_ceil(2)) as f64 + 1.0;
 
-    fn of(value: f64) -> Self {
-        Self::rounded(value)
-    }
     fn abs(self) -> Self {
         Self(self.0.abs())
-    }
-    fn sqrt(self) -> Self {
-        Self::rounded(self.0.sqrt())
     }
     fn copysign(self, other: Self) -> Self {
         Self(self.0.copysign(other.0))

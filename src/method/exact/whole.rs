@@ -4,11 +4,12 @@
 //! and ties are settled for certain in a few nanoseconds.
 
 use std::cmp::Ordering;
-use std::ops::{Add, Mul};
 
 use super::binary64::{Discriminant, Estimate, Input, U};
 use super::error_free::two_difference;
 use super::rounding::{Quadratic, Signs};
+use crate::geometry::vector::dot;
+use crate::number::power_of_two;
 
 /// A, b, C and D as stage 1 computes them, if it rounds nothing: o and r are whole numbers of 12
 /// bits in one unit, d in another, so that D has at most 52.
@@ -187,15 +188,6 @@ fn exponent(x: f64) -> i32 {
     ((x.to_bits() >> 52) & 0x7ff) as i32 - 1023
 }
 
-/// 2ⁿ for −1022 ≤ n ≤ 1023.
-pub fn power_of_two(n: i32) -> f64 {
-    f64::from_bits(((n + 1023) as u64) << 52)
-}
-
 fn greatest(v: [f64; 3]) -> f64 {
     v[0].abs().max(v[1].abs()).max(v[2].abs())
-}
-
-fn dot<T: Copy + Add<Output = T> + Mul<Output = T>>(u: [T; 3], v: [T; 3]) -> T {
-    u[0] * v[0] + u[1] * v[1] + u[2] * v[2]
 }

@@ -1,0 +1,84 @@
+//! What all methods do alike: a file each has the formula.
+
+#![expect(
+    clippy::inline_always,
+    reason = "a call would leave the vectors of the loop that a formula is compiled into"
+)]
+
+use super::number::{Input, Scalar};
+use super::tape::{Float, Tape, Traced};
+use super::trace::{Step, Steps};
+use super::truth::Truth;
+use super::{Class, Coefficients, Solution};
+use crate::geometry::{Ray, Sphere};
+
+/// One way to evaluate the quadratic, written once over its number.
+pub(super) trait Formula {
+    /// What it computes with.
+    type Float: Float;
+    /// Every quantity that it names up to the discriminant, in the order of the mathematics.
+    type Quantities<T: Scalar>;
+
+    /// The formula itself.
+    fn quantities<T: Scalar>(input: &Input<T>) -> Self::Quantities<T>;
+    /// Δ, or a quarter of it: its sign is the class.
+    fn discriminant<T: Scalar>(quantities: &Self::Quantities<T>) -> T;
+    /// A, B, C and Δ.
+    fn coefficients<T: Scalar>(quantities: &Self::Quantities<T>) -> [T; 4];
+    /// The answer for a line that meets the sphere.
+    fn solution(class: Class, quantities: &Self::Quantities<Self::Float>) -> Solution;
+    /// The steps up to the discriminant.
+    fn steps<'t>(steps: &mut Steps<'t>, quantities: &Self::Quantities<Traced<'t, Self::Float>>);
+    /// The steps from there to the roots of a line that meets the sphere.
+    fn root_steps<'t>(
+        steps: &mut Steps<'t>,
+        quantities: &Self::Quantities<Traced<'t, Self::Float>>,
+        truth: &Truth,
+    );
+}
+
+/// Class by the sign of the discriminant, and both roots.
+///
+/// For a loop over arrays: it is compiled into the loop, for the vectors that the loop has.
+#[inline(always)]
+pub(super) fn solve_in_loop<F: Formula>(ray: &Ray, sphere: &Sphere) -> Solution {
+    let quantities = F::quantities(&Input::new(ray, sphere, F::Float::from));
+    let class = Class::of_discriminant(F::discriminant(&quantities).into());
+    if !class.meets() {
+        return Solution::without_roots(class);
+    }
+    F::solution(class, &quantities)
+}
+
+/// As [`solve_in_loop`], one by one: a call of its own, so that long ones are not in the way of short ones.
+#[inline(never)]
+pub(super) fn solve<F: Formula>(ray: &Ray, sphere: &Sphere) -> Solution {
+    solve_in_loop::<F>(ray, sphere)
+}
+
+/// A, B, C and Δ as the formula's own arithmetic has them.
+pub(super) fn coefficients<F: Formula>(ray: &Ray, sphere: &Sphere) -> Coefficients {
+    let quantities = F::quantities(&Input::new(ray, sphere, F::Float::from));
+    let [a, b, c, discriminant] = F::coefficients(&quantities).map(Into::into);
+    Coefficients {
+        precision: F::Float::PRECISION,
+        a,
+        b,
+        c,
+        discriminant,
+    }
+}
+
+/// The derivation, by the same code over a number that keeps record.
+pub(super) fn steps<F: Formula>(ray: &Ray, sphere: &Sphere, truth: &Truth) -> Vec<Step> {
+    let tape = Tape::default();
+    let input = Input::new(ray, sphere, |x| tape.input(F::Float::from(x)));
+    let mut steps = Steps::new(&tape, &input);
+    let quantities = F::quantities(&input);
+    F::steps(&mut steps, &quantities);
+    let discriminant = F::discriminant(&quantities).value();
+    if Class::of_discriminant(discriminant.into()).meets() {
+        F::root_steps(&mut steps, &quantities, truth);
+    }
+    steps.finish()
+}
