@@ -39,7 +39,7 @@ pub(super) trait Formula {
 
 /// Class by the sign of the discriminant, and both roots.
 ///
-/// For a loop over arrays: it is compiled into the loop, for the vectors that the loop has.
+/// It is compiled into its caller: into a loop over arrays, for the vectors that the loop has.
 #[inline(always)]
 pub(super) fn solve_in_loop<F: Formula>(ray: &Ray, sphere: &Sphere) -> Solution {
     let quantities = F::quantities(&Input::new(ray, sphere, F::Float::from));
@@ -50,7 +50,7 @@ pub(super) fn solve_in_loop<F: Formula>(ray: &Ray, sphere: &Sphere) -> Solution 
     F::solution(class, &quantities)
 }
 
-/// As [`solve_in_loop`], one by one: a call of its own, so that long ones are not in the way of short ones.
+/// The same as a call of its own, so that a long one is not in the way of short ones.
 #[inline(never)]
 pub(super) fn solve<F: Formula>(ray: &Ray, sphere: &Sphere) -> Solution {
     solve_in_loop::<F>(ray, sphere)

@@ -86,10 +86,10 @@ impl Method {
     /// Where the line of `ray` meets `sphere`.
     pub fn solve(self, ray: &Ray, sphere: &Sphere) -> Solution {
         match self {
-            Self::Textbook => formula::solve::<Textbook>(ray, sphere),
-            Self::Citardauq => formula::solve::<Citardauq>(ray, sphere),
+            Self::Textbook => formula::solve_in_loop::<Textbook>(ray, sphere),
+            Self::Citardauq => formula::solve_in_loop::<Citardauq>(ray, sphere),
             Self::Haines => formula::solve::<Haines>(ray, sphere),
-            Self::Kahan => formula::solve::<Kahan>(ray, sphere),
+            Self::Kahan => formula::solve_in_loop::<Kahan>(ray, sphere),
             Self::Double => formula::solve::<Double>(ray, sphere),
             Self::Exact => exact::solve(ray, sphere),
         }
