@@ -192,3 +192,30 @@ fn steps_without_a_pixel_are_misuse() {
     let said = String::from_utf8(output.stderr).expect("text");
     assert!(said.contains("--pixel"), "{said}");
 }
+
+#[test]
+fn a_pixel_says_which_sphere_is_seen_and_which_is_in_front() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("far.toml");
+    let scene = "name = \"far\"\n[camera]\nprojection = \"orthographic\"\nextent = [4, 4]\npixels = [40, 40]\n\
+        position = [0, 0, 1e7]\nlook_at = [0, 0, 0]\nup = [0, 1, 0]\n\
+        [[sphere]]\ncenter = [0, 0, 0]\nradius = 1\n[[sphere]]\ncenter = [0, 0, 0]\nradius = 1.2\n";
+    std::fs::write(&file, scene).expect("a file");
+    let panel = |method| {
+        let file = file.to_str().expect("a path");
+        text(&["print", file, "--pixel", "20,20", "--method", method])
+    };
+    let line = |panel: &str| {
+        let line = panel.lines().find(|line| line.contains("nearest hit"));
+        line.expect("a nearest hit").to_owned()
+    };
+    let exact = panel("exact");
+    assert!(line(&exact).contains("sphere 2 of 2"), "{exact}");
+    assert!(!exact.contains("wrong sphere"), "{exact}");
+    let double = panel("double");
+    assert!(line(&double).contains("sphere 1 of 2"), "{double}");
+    assert!(
+        double.contains("wrong sphere seen: 1, but exactly 2"),
+        "{double}"
+    );
+}

@@ -551,3 +551,31 @@ fn what_is_left_out_changes_no_bit_at_the_ends_of_the_range() {
         assert_same(&scene, Size::new(17, 17), PixelShape::Aspect(1.0));
     }
 }
+
+/// From z = 1e7 both near roots round alike; the outer sphere is in front, wherever it is listed.
+#[test]
+fn of_spheres_about_one_point_exact_sees_the_outer_one_from_far_away() {
+    let camera = Camera {
+        projection: Projection::Orthographic { extent: [4.0, 4.0] },
+        position: Vec3::new(0.0, 0.0, 1e7),
+        look_at: Vec3::ZERO,
+        up: Vec3::Y,
+    };
+    let scene = scene(camera, vec![body([0.0; 3], 1.0), body([0.0; 3], 1.2)]);
+    let size = Size::new(40, 40);
+    for view in View::ALL {
+        let frame = rendered(&scene, size, Method::Exact, view);
+        let seen: Vec<_> = pixels(&frame)
+            .filter_map(|(x, y)| frame.seen(x, y))
+            .collect();
+        assert!(seen.len() > 300, "{view:?}");
+        assert!(seen.iter().all(|&body| body == 1), "{view:?}");
+    }
+    let frame = rendered(&scene, size, Method::Exact, View::Shade);
+    assert!(frame.plan().counts().ties > 200);
+    // The others go by their own numbers, which are equal, and are shown to be wrong.
+    let frame = rendered(&scene, size, Method::Double, View::Lost);
+    assert_eq!(frame.seen(20, 20), Some(0));
+    assert_eq!(frame.lost(20, 20), Some(Lost::Everything));
+    assert_same(&scene, Size::new(15, 15), PixelShape::Aspect(1.0));
+}

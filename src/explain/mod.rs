@@ -45,6 +45,8 @@ pub struct Reading {
     pub meetings: Vec<Meeting>,
     /// The sphere whose quadratic is shown; none in an empty scene.
     pub subject: Option<Subject>,
+    /// The sphere that the method sees and the one that is in front, if these are two.
+    pub other_sphere: Option<[usize; 2]>,
     /// The other spheres that the method gets wrong.
     pub wrong: Vec<Wrong>,
 }
@@ -171,6 +173,7 @@ impl Reading {
             ray,
             method,
             spheres: scene.bodies.len(),
+            other_sphere: other_sphere(scene, &ray, method, &meetings),
             wrong: wrong(scene, &ray, method, shown),
             subject: pick.map(|(body, why)| subject(scene, body, why, &ray, method)),
             meetings,
@@ -193,6 +196,17 @@ fn meetings(scene: &Scene, ray: &Ray, method: Method) -> Vec<Meeting> {
     let met = |m: &Meeting| (&scene.bodies[m.body].sphere, m.solution);
     meetings.sort_by(|m, n| method.order(ray, met(m), met(n)));
     meetings
+}
+
+/// The sphere that the method sees and the one that is in front, if these are two.
+fn other_sphere(scene: &Scene, ray: &Ray, method: Method, found: &[Meeting]) -> Option<[usize; 2]> {
+    let first = |meetings: &[Meeting]| {
+        let first = meetings.first()?;
+        first.solution.visible().map(|_| first.body)
+    };
+    let seen = first(found).filter(|_| method != Method::Exact)?;
+    let right = first(&meetings(scene, ray, Method::Exact))?;
+    (seen != right).then_some([seen, right])
 }
 
 /// The spheres but the one that is shown whose class the method gets wrong.

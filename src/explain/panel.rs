@@ -507,19 +507,20 @@ fn verdict_lines(subject: &Subject, width: usize, digits: Digits) -> Vec<Line> {
     out
 }
 
-/// What the method says wrongly of spheres that are not shown.
+/// Which sphere the method takes for the one in front, and what it says wrongly of spheres that are not
+/// shown.
 fn wrong_lines(reading: &Reading, width: usize) -> Vec<Line> {
     let sentence = |wrong: &Wrong| {
         let Wrong { body, said, right } = wrong;
         format!("sphere {}: {said}, but exactly {right}", body + 1)
     };
-    let mut sentences: Vec<_> = reading
-        .wrong
-        .iter()
-        .take(MOST_WRONG)
-        .map(sentence)
-        .collect();
-    let more = reading.wrong.len() - sentences.len();
+    let other = reading.other_sphere.map(|[seen, right]| {
+        let [seen, right] = [seen + 1, right + 1];
+        format!("wrong sphere seen: {seen}, but exactly {right} is in front")
+    });
+    let named = reading.wrong.iter().take(MOST_WRONG).map(sentence);
+    let mut sentences: Vec<_> = other.into_iter().chain(named).collect();
+    let more = reading.wrong.len().saturating_sub(MOST_WRONG);
     if more > 0 {
         sentences.push(format!("and {more} more spheres are wrong"));
     }

@@ -309,10 +309,14 @@ impl Solution {
 
     /// The visible root: the least t > 0.
     pub fn visible(&self) -> Option<f32> {
-        Some(match self.place?.visible_root()? {
-            Which::Near => self.near,
-            Which::Far => self.far,
-        })
+        if !self.class.meets() {
+            return None;
+        }
+        match self.place? {
+            Place::Hit => Some(self.near),
+            Place::Inside => Some(self.far),
+            Place::Behind => None,
+        }
     }
 }
 

@@ -4,16 +4,18 @@ use std::ops::Range;
 
 use glam::Vec3;
 
-use super::cover::Bounds;
-use super::lanes::{LANES, Lanes, Real, dot};
-use crate::geometry::Ray;
+use super::bounds::Bounds;
+use super::lanes::{Lanes, dot};
+use crate::geometry::{Ray, Sphere};
+use crate::method::Method;
+use crate::method::batch::{Batch, Solutions};
 use crate::scene::{Rays, Size};
 
 /// Columns and rows of a tile; a multiple of the lanes.
 pub(super) const TILE: usize = 8;
 
 /// A direction that is up to 2²⁰ times as long as that at the centre, which has length 1.
-const GREATEST_A: f64 = (1_u64 << 40) as f64;
+const GREATEST_A: f32 = (1_u64 << 40) as f32;
 
 /// The rays of all pixels: what they share once, what varies as three arrays.
 ///
@@ -30,9 +32,9 @@ pub(super) struct Field {
     /// The components of the other one of the two.
     varying: [Vec<f32>; 3],
     /// A = d·d of each ray (perspective) or of all (orthographic).
-    a: Vec<f64>,
-    /// The same in binary32.
-    a_single: Vec<f32>,
+    a: Vec<f32>,
+    /// For each tile how long its directions are at most, if they vary.
+    longest: Vec<f32>,
     /// Whether no A is so large or small that products of it leave the range of binary32.
     ordinary: bool,
     /// The components of what varies that do not: whether o·d is the same for all rays.
@@ -49,7 +51,7 @@ impl Default for Field {
             shared: Vec3::ZERO,
             varying: Default::default(),
             a: Vec::new(),
-            a_single: Vec::new(),
+            longest: Vec::new(),
             ordinary: false,
             constant_b: false,
         }
@@ -74,13 +76,13 @@ impl Field {
         };
         self.varying.iter_mut().for_each(Vec::clear);
         self.a.clear();
-        self.a_single.clear();
         for y in 0..rays.size.height {
             for x in 0..self.stride as u32 {
                 let ray = rays.ray(x, y);
                 self.push(&ray);
             }
         }
+        self.measure_tiles();
         let ordinary = 1.0 / GREATEST_A..GREATEST_A;
         self.ordinary = self.a.iter().all(|a| ordinary.contains(a));
         self.constant_b = !self.perspective && self.b_is_constant();
@@ -97,6 +99,23 @@ impl Field {
         })
     }
 
+    fn measure_tiles(&mut self) {
+        self.longest.clear();
+        if !self.perspective || self.stride == 0 {
+            return;
+        }
+        let across = self.stride / TILE;
+        for band in self.a.chunks(self.stride * TILE) {
+            let start = self.longest.len();
+            self.longest.resize(start + across, 0.0);
+            for row in band.chunks(self.stride) {
+                for (longest, a) in self.longest[start..].iter_mut().zip(row.chunks(TILE)) {
+                    *longest = a.iter().fold(*longest, |most, &a| most.max(a.sqrt()));
+                }
+            }
+        }
+    }
+
     fn push(&mut self, ray: &Ray) {
         let varying = if self.perspective {
             ray.direction
@@ -108,9 +127,7 @@ impl Field {
         }
         let d = ray.direction.to_array().map(f64::from);
         if self.perspective || self.a.is_empty() {
-            let a = dot(d, d);
-            self.a.push(a);
-            self.a_single.push(a as f32);
+            self.a.push(dot(d, d) as f32);
         }
     }
 
@@ -163,23 +180,6 @@ impl Field {
         })
     }
 
-    /// The places at which runs of [`LANES`] begin that together hold the pixels within `bounds`.
-    pub(super) fn runs_within(&self, bounds: Bounds) -> impl Iterator<Item = usize> + use<> {
-        let stride = self.stride;
-        let bounds = if bounds.is_empty() {
-            Bounds::NONE
-        } else {
-            bounds
-        };
-        let first = bounds.left as usize / LANES * LANES;
-        (bounds.top..=bounds.bottom).flat_map(move |y| {
-            let row = y as usize * stride;
-            (first..=bounds.right as usize)
-                .step_by(LANES)
-                .map(move |x| row + x)
-        })
-    }
-
     /// Whether a place is that of a pixel.
     pub(super) const fn is_pixel(&self, place: usize) -> bool {
         place % self.stride < self.size.width as usize
@@ -218,16 +218,6 @@ impl Field {
         ]
     }
 
-    /// A = d·d, from a place on.
-    #[inline(always)]
-    pub(super) fn a(&self, place: usize) -> Lanes {
-        if self.perspective {
-            Lanes::load_double(&self.a, place)
-        } else {
-            Lanes::of(self.a[0])
-        }
-    }
-
     /// What varies, at each place, in binary32.
     pub(super) const fn varying_singles(&self) -> [&[f32]; 3] {
         let [x, y, z] = &self.varying;
@@ -241,7 +231,41 @@ impl Field {
 
     /// A = d·d rounded to binary32: at each place (perspective) or once for all.
     pub(super) const fn a_singles(&self) -> &[f32] {
-        self.a_single.as_slice()
+        self.a.as_slice()
+    }
+
+    /// Asks `method` about a sphere at a run of places.
+    pub(super) fn ask(
+        &self,
+        method: Method,
+        sphere: &Sphere,
+        run: Range<usize>,
+        answers: &mut Solutions,
+    ) {
+        let varying = self.varying.each_ref().map(|v| &v[run.clone()]);
+        let Sphere { center, radius } = *sphere;
+        if self.perspective {
+            let rays = Batch {
+                origin: self.shared,
+                direction: varying,
+                center,
+                radius,
+            };
+            rays.solve(method, answers);
+        } else {
+            let rays = Batch {
+                origin: varying,
+                direction: self.shared,
+                center,
+                radius,
+            };
+            rays.solve(method, answers);
+        }
+    }
+
+    /// How long a direction is at most within a tile of a perspective picture.
+    pub(super) fn longest(&self, tile: usize) -> f32 {
+        self.longest[tile]
     }
 
     /// Whether products with any A stay within the range of binary32, if the other factors do by far.

@@ -2,24 +2,12 @@
 
 use std::ops::Range;
 
-use super::cover::Bounds;
+use super::bounds::Bounds;
 use super::ink::{Ink, NO_ANSWER, ink};
+use super::look::Look;
 use super::ramp::Ramps;
 use super::{ColorDepth, Contact, Frame, Style, View};
 use crate::scene::{Rgb, Scene, Size};
-
-/// How an image is to look.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Look {
-    /// How many pixels a cell shows, and with what.
-    pub style: Style,
-    /// How many colours there are.
-    pub depth: ColorDepth,
-    /// Whether to keep to the characters of ASCII, in every style.
-    pub ascii_only: bool,
-    /// Whether two shades do: less changes from picture to picture, for links that can't keep up.
-    pub coarse: bool,
-}
 
 /// A character and its colours; where there is none, the terminal's own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

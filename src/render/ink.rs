@@ -3,8 +3,8 @@
 use glam::Vec3;
 
 use super::color::color_of;
-use super::frame::FARTHEST_MISS;
-use super::image::Look;
+use super::delta::FARTHEST_MISS;
+use super::look::Look;
 use super::ramp::Ramps;
 use super::{ColorDepth, Contact, Frame, Lost, Style, View};
 use crate::method::exact::Stage;

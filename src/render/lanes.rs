@@ -86,13 +86,6 @@ impl Lanes {
         let from: &[f32] = &from[i..i + LANES];
         Self::each(|l| from[l].into())
     }
-
-    /// The binary64 numbers from place `i` on.
-    #[inline(always)]
-    pub(super) fn load_double(from: &[f64], i: usize) -> Self {
-        let from: &[f64] = &from[i..i + LANES];
-        Self::each(|l| from[l])
-    }
 }
 
 impl Real for Lanes {

@@ -39,8 +39,8 @@ impl Contact {
         }
     }
 
-    /// The root of the sphere that is seen so.
-    pub(super) const fn visible_root(self) -> Place {
+    /// Where the sphere lies that is seen so.
+    pub(super) const fn place(self) -> Place {
         match self {
             Self::Inside => Place::Inside,
             _ => Place::Hit,
@@ -60,19 +60,17 @@ impl Contact {
 /// No sphere: greater than the number of any.
 pub(super) const NOBODY: u32 = u32::MAX;
 
-/// Marks the number of a sphere about which the method itself was asked at this pixel: how its line
-/// meets it is noted, and t is the method's own.
-pub(super) const ASK: u32 = 1 << 31;
-
-/// Marks the number of a sphere that holds the eye.
-pub(super) const INSIDE: u32 = 1 << 30;
+/// Marks the number of a sphere that the method itself found at this pixel: how its line meets it is
+/// noted, and t is the method's own. Else the certified test found it: a secant before the eye, t about
+/// right.
+pub(super) const ASKED: u32 = 1 << 31;
 
 /// The number of the sphere that an entry names.
 pub(super) const fn number(entry: u32) -> Option<u32> {
     if entry == NOBODY {
         None
     } else {
-        Some(entry & !(ASK | INSIDE))
+        Some(entry & !ASKED)
     }
 }
 
@@ -81,7 +79,7 @@ pub(super) const fn number(entry: u32) -> Option<u32> {
 pub(super) struct Layer {
     /// The visible root; ∞ where there is none.
     pub(super) t: Vec<f32>,
-    /// The number of the sphere, with [`ASK`] or [`INSIDE`], or [`NOBODY`].
+    /// The number of the sphere, with [`ASKED`] where that is so, or [`NOBODY`].
     pub(super) body: Vec<u32>,
     /// How the line meets it, where that does not follow from the entry: see [`Layer::contact`].
     pub(super) contact: Vec<Contact>,
@@ -110,34 +108,38 @@ impl Layer {
     /// What the line of a pixel does.
     pub(super) fn contact(&self, i: usize) -> Contact {
         let entry = self.body[i];
-        if entry == NOBODY || entry & ASK != 0 {
+        if entry == NOBODY || self.is_asked(i) {
             self.contact[i]
-        } else if entry & INSIDE != 0 {
-            Contact::Inside
         } else {
             Contact::Secant
         }
     }
 
-    /// Takes note of one answer; whether it is of the sphere that is seen so far. What is behind the
-    /// eye is noted only if `also_behind`.
+    /// Whether the method itself found what is seen at a pixel.
+    pub(super) fn is_asked(&self, i: usize) -> bool {
+        self.body[i] != NOBODY && self.body[i] & ASKED != 0
+    }
+
+    /// Notes what the method answered about a sphere; whether that is now the one that is seen. Another one
+    /// that is seen goes before it unless it `is_first`. What is behind the eye is noted only if
+    /// `also_behind`.
     pub(super) fn note(
         &mut self,
         i: usize,
-        number: u32,
+        sphere: u32,
         answer: &Solution,
         also_behind: bool,
+        is_first: impl FnOnce(u32) -> bool,
     ) -> bool {
         let contact = Contact::of(answer);
-        let seen = self.seen(i).unwrap_or(NOBODY);
-        match answer.visible() {
-            Some(t) if (t, number) < (self.t[i], seen) => {
+        match (answer.visible(), self.seen(i)) {
+            (Some(t), seen) if seen.is_none_or(is_first) => {
                 self.t[i] = t;
-                self.body[i] = number | ASK;
+                self.body[i] = sphere | ASKED;
                 self.contact[i] = contact;
                 true
             }
-            None if seen == NOBODY && (also_behind || !contact.is_behind()) => {
+            (None, None) if also_behind || !contact.is_behind() => {
                 self.contact[i] = self.contact[i].max(contact);
                 false
             }

@@ -10,8 +10,7 @@
 
 mod bounds;
 mod color;
-mod cover;
-mod crowd;
+mod delta;
 mod field;
 mod finish;
 mod frame;
@@ -19,19 +18,24 @@ mod image;
 mod ink;
 mod lanes;
 mod layer;
-mod nearest;
+mod look;
+mod memory;
 mod plan;
+mod projected;
+mod projector;
 mod ramp;
+mod search;
 mod shade;
-mod single;
 mod style;
 mod view;
+mod windows;
 
 pub use color::{AnsiColor, ColorDepth, color_of};
 pub use frame::{Frame, Hit, Lost};
-pub use image::{Cell, Image, Look};
+pub use image::{Cell, Image};
 pub use ink::RAMP;
 pub use layer::Contact;
+pub use look::Look;
 pub use plan::{Counts, Plan, Way};
 pub use shade::AMBIENT;
 pub use style::{CELL_ASPECT, Style, fit};

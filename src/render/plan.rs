@@ -5,7 +5,10 @@
 //! docs/plan.md has the proofs; `explain` has the reasons in words.
 
 use super::View;
+use super::projector::{Projector, Reach, Window};
+use crate::geometry::Sphere;
 use crate::method::Method;
+use crate::method::batch::Solutions;
 use crate::method::exact::Stage;
 use crate::scene::{Body, Light, Rays, Scene, Size};
 
@@ -21,6 +24,41 @@ pub enum Way {
     /// The method itself, about every sphere at every pixel.
     #[default]
     Everything,
+}
+
+/// Which rays of a frame are of interest, of each sphere.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Interest {
+    pub way: Way,
+    pub view: View,
+}
+
+impl Interest {
+    /// Those of a sphere that no ray meets before `least` at t > 0.
+    #[inline(always)]
+    pub(super) fn reach(self, least: f32) -> Reach {
+        match (self.way, self.view) {
+            (Way::Everything, _) => Reach::Everything,
+            // This view shows what lies behind the eye, too.
+            (Way::Certified, View::Class) if least == 0.0 => Reach::Lines(1.0),
+            (Way::Certified, _) => Reach::Seen,
+            // Lines that pass within two radii are shown.
+            (Way::Widened, View::Delta) => Reach::Lines(2.0),
+            (Way::Widened, _) => Reach::Lines(1.0),
+        }
+    }
+
+    /// Where a sphere can be met so.
+    pub(super) fn window(self, projector: &Projector, sphere: &Sphere) -> Window {
+        let reach = self.reach(f32::INFINITY);
+        let window = projector.window(sphere, reach);
+        match self.reach(window.least) {
+            Reach::Lines(times) if reach == Reach::Seen => {
+                projector.window(sphere, Reach::Lines(times))
+            }
+            _ => window,
+        }
+    }
 }
 
 /// What a frame came to.
@@ -50,6 +88,8 @@ pub struct Counts {
     pub stages: [u64; Stage::ALL.len()],
     /// Square roots for telling which sphere is nearer, and those of the method itself.
     pub roots: u64,
+    /// Of the questions which of two spheres is seen those whose roots round alike: exact signs told.
+    pub ties: u64,
     /// Visible roots that were rounded for the view, beside those of the questions.
     pub rounded: u64,
     /// Pixels that were shaded.
@@ -83,6 +123,14 @@ impl Counts {
         }
     }
 
+    /// Notes questions to the method that were asked together.
+    pub(super) fn note_answers(&mut self, answers: &Solutions) {
+        self.solved += answers.class.len() as u64;
+        for (sum, n) in self.stages.iter_mut().zip(answers.stages) {
+            *sum += n;
+        }
+    }
+
     /// Notes that a root was rounded, and which stage settled it.
     pub(super) fn note_rounded(&mut self, stage: Stage) {
         self.rounded += 1;
@@ -105,6 +153,8 @@ pub struct Plan {
     light: Option<Light>,
     spheres: u64,
     pub(super) counts: Counts,
+    /// What the truth came to, which a method is held to.
+    pub(super) truth: Counts,
 }
 
 impl Plan {
@@ -139,6 +189,7 @@ impl Plan {
             light: scene.light,
             spheres: scene.bodies.len() as u64,
             counts: Counts::default(),
+            truth: Counts::default(),
         }
     }
 
@@ -208,6 +259,29 @@ impl Plan {
     /// What the frame came to.
     pub const fn counts(&self) -> &Counts {
         &self.counts
+    }
+
+    /// What finding out what `exact` sees came to, if the view holds another method to it.
+    pub const fn truth(&self) -> Option<&Counts> {
+        if self.compares() {
+            Some(&self.truth)
+        } else {
+            None
+        }
+    }
+
+    /// Whether the method is held to what `exact` sees, which has to be found too.
+    pub(super) const fn compares(&self) -> bool {
+        let asks_exact = matches!(self.way, Way::Certified);
+        matches!(self.view, View::Lost) && !asks_exact
+    }
+
+    /// Which rays are of interest.
+    pub(super) const fn interest(&self) -> Interest {
+        Interest {
+            way: self.way,
+            view: self.view,
+        }
     }
 }
 

@@ -61,9 +61,17 @@ pub(super) fn count_step(subject: &Subject) -> Step {
 fn seen_step(subject: &Subject) -> Step {
     let [near, far] = [subject.solution.near, subject.solution.far].map(n32);
     let (result, code) = match subject.solution.place() {
+        Some(Place::Hit) if subject.solution.near == 0.0 => (
+            "0 < near, which rounds to 0, a hit: the near point is seen".into(),
+            "Place::Hit => Some(self.near),",
+        ),
         Some(Place::Hit) => (
             format!("0 < {near}, a hit: the near point is seen, t = {near}"),
             "Self::Hit => Some(Which::Near),",
+        ),
+        Some(Place::Inside) if subject.solution.far == 0.0 => (
+            "near ≤ 0 < far, which rounds to 0, inside: the far point is seen".into(),
+            "Place::Inside => Some(self.far),",
         ),
         Some(Place::Inside) => (
             format!("{near} ≤ 0 < {far}, inside: the far point is seen, t = {far}"),

@@ -80,7 +80,9 @@ pub fn plan_lines(plan: &Plan, image: &Image) -> Vec<PlanLine> {
     lines.extend([questions(plan), moving_away(plan)]);
     lines.extend(coefficients(plan));
     lines.extend([square_roots(plan), rounded_roots(plan)]);
+    lines.extend(equal_roots(plan));
     lines.extend(stages(plan));
+    lines.extend(truth(plan));
     lines.extend(surface(plan));
     lines.extend(cells(image));
     lines
@@ -167,6 +169,8 @@ fn in_the_picture(plan: &Plan) -> PlanLine {
 fn not_hidden(plan: &Plan) -> PlanLine {
     let because = if is_certified(plan) {
         "the least root they can have is above all that is seen there"
+    } else if plan.counts().hidden > 0 {
+        "the same sphere is listed before"
     } else if plan.view().shows_only_what_is_seen() {
         "a wrong root of the method may be the least: none may be left out"
     } else {
@@ -331,6 +335,28 @@ fn rounded_roots(plan: &Plan) -> PlanLine {
         "nothing shows them; near ties are told apart by exact"
     };
     PlanLine::of_all("rounded roots", rounded + solved, tested, because)
+}
+
+/// How many times exact signs told which sphere is nearer, if that was ever in question.
+fn equal_roots(plan: &Plan) -> Option<PlanLine> {
+    let because =
+        "rounding is monotone: only roots that round alike need exact signs to be told apart";
+    let Counts { ties, solved, .. } = *plan.counts();
+    (ties > 0).then(|| PlanLine::of_all("equal roots", ties, solved, because))
+}
+
+/// What finding the right picture takes, beside that of the method.
+fn truth(plan: &Plan) -> Option<PlanLine> {
+    let because =
+        "what is right is found by exact, by its certified test where a sphere can be seen";
+    let truth = plan.truth()?;
+    let all = (all_pixels(plan) - plan.counts().kept) * plan.spheres();
+    Some(PlanLine::of_all(
+        "beside exact",
+        truth.tested + truth.solved,
+        all,
+        because,
+    ))
 }
 
 fn stages(plan: &Plan) -> Vec<PlanLine> {

@@ -1,12 +1,12 @@
-//! What the certified test in binary32 needs of a sphere; the tests themselves are in
-//! [`super::nearest`].
+//! What the certified test in binary32 needs of a sphere, and how good its answers are. The test itself is
+//! in `search`.
 
 use super::lanes::{dot, sub};
 use crate::geometry::Sphere;
 
 /// A sphere that the test in binary32 serves.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Single {
+pub(super) struct Projected {
     /// o = p0 − c where all rays start at p0, else c.
     pub origin: [f32; 3],
     /// C = o² − r² where all rays start at one point.
@@ -32,17 +32,27 @@ const LEAST_SHARE: f32 = 1.0 / (1 << 17) as f32;
 ///
 /// A line that passes farther away, |o × d| = k > 2√A r, is off by less than
 /// k²(8.6u√A|o|/k + 18.5u²A o²/k² + 8u) < 0.04k², while −D > 0.75k²: a miss beyond all doubt.
-const SINGLE_ERROR: f32 = 1.0 / (1 << 19) as f32;
+const TEST_ERROR: f32 = 1.0 / (1 << 19) as f32;
 
-/// A root with this relative error still tells depths apart: half of [`super::nearest::SAME`], less
+/// A root with this relative error still tells depths apart: half of [`SAME`], less
 /// what the operations before and after the square root add.
 const ROOT_ERROR: f32 = 1.0 / (1 << 14) as f32;
+
+/// The share by which two roots must differ to tell which is less, where they are not the method's own:
+/// each of them is off by less than 2⁻¹³ of itself.
+pub(super) const SAME: f32 = 1.0 / (1 << 12) as f32;
+
+/// Whether a root is less than another one, or than a bound, beyond doubt.
+#[inline(always)]
+pub(super) fn is_before(t: f32, other: f32) -> bool {
+    t < other * (1.0 - SAME)
+}
 
 /// Between these no product of the test in binary32 leaves its normal range.
 pub(super) const LEAST_REACH: f32 = 1.0 / GREATEST_REACH;
 pub(super) const GREATEST_REACH: f32 = (1 << 20) as f32;
 
-impl Single {
+impl Projected {
     /// For rays that all start at `p0`; none where the test does not serve.
     ///
     /// A root C/(|b| + √D) with D > kA·`doubt` is off by ½√(`doubt`/kC) of itself, plus 4u|o|/√C for b
@@ -83,7 +93,7 @@ impl Single {
     /// With `nearest2` in the place of C, and `reach` at least |o| + r.
     #[inline(always)]
     fn new(origin: [f32; 3], c: f32, r: f32, reach: f32, nearest2: f32) -> Option<Self> {
-        let doubt = SINGLE_ERROR * r * reach;
+        let doubt = TEST_ERROR * r * reach;
         let for_class = doubt + doubt;
         let for_root = doubt * (doubt / (4.0 * ROOT_ERROR * ROOT_ERROR * nearest2));
         let serves = (r >= LEAST_SHARE * reach) & (LEAST_REACH..=GREATEST_REACH).contains(&reach);

@@ -1,8 +1,9 @@
-//! Where many spheres can be seen, and which of them to ask about first: bounds in binary32, as many
+//! Where many spheres can be met, and which of them to ask about first: bounds in binary32, as many
 //! spheres at once as a vector holds, and an order from front to back.
 //!
-//! The bounds hold what those of [`super::cover`] hold, with proof; the sphere is widened a little more. Spheres that they do not serve, near the plane of the eye or around it, beyond 2²⁰ or
-//! within 2⁻²⁰, take those of [`super::cover`], one by one.
+//! The bounds hold what those of [`super::projector`] hold, with proof; the sphere is widened a little
+//! more. Spheres that they do not serve, near the plane of the eye or around it, beyond 2²⁰ or within
+//! 2⁻²⁰, and whole lines, take those of [`super::projector`], one by one.
 
 #![expect(
     clippy::manual_range_contains,
@@ -12,17 +13,18 @@
 
 use glam::{DVec3, Vec3};
 
-use super::cover::{Bounds, Projector};
+use super::bounds::Bounds;
 use super::lanes::{Real, dot, sub};
 use super::layer::refill;
-use super::plan::Counts;
-use super::single::{GREATEST_REACH, LEAST_REACH, Single};
+use super::plan::{Counts, Interest, Way};
+use super::projected::{GREATEST_REACH, LEAST_REACH, Projected};
+use super::projector::Projector;
+use super::view::View;
 use crate::geometry::Sphere;
-use crate::scene::Rays;
 
 /// Spheres that are bounded and put in order together: few enough for all that is known of them to
 /// stay near the processor.
-pub(super) const CROWD: usize = 16_384;
+pub(super) const MOST: usize = 16_384;
 
 /// A sphere is widened by this share of its distance and radius before it is projected.
 ///
@@ -49,9 +51,9 @@ const BUCKETS: usize = 256;
 /// Fewer spheres than this are asked about as they come.
 const WORTH_ORDER: usize = 4;
 
-/// Some spheres of a scene: where each can be seen, and those that can, from front to back.
+/// Some spheres of a scene: where each can be met, and those that can, from front to back.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Crowd {
+pub(super) struct Windows {
     pub(super) bounds: Vec<Bounds>,
     /// No visible root is below this.
     pub(super) least: Vec<f32>,
@@ -60,7 +62,7 @@ pub(super) struct Crowd {
     order: Vec<u32>,
 }
 
-/// What bounding a crowd needs of a camera: unit axes, and the pixel step along each, rounded.
+/// The camera in binary32: unit axes, and the pixel step along each.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lens {
     origin: [f32; 3],
@@ -98,22 +100,16 @@ struct Block {
 }
 
 impl Lens {
-    pub(super) fn new(rays: &Rays, projector: &Projector) -> Self {
-        let step = [rays.right.length(), rays.down.length()];
-        let size = [rays.size.width, rays.size.height].map(f64::from);
-        let axes = [
-            rays.right / step[0],
-            rays.down / step[1],
-            rays.direction.normalize(),
-        ];
-        let single = |v: DVec3| v.as_vec3().to_array();
+    pub(super) fn new(projector: &Projector) -> Self {
+        let vector = |v: DVec3| v.as_vec3().to_array();
+        let pair = |pair: [f64; 2]| pair.map(|x| x as f32);
         Self {
-            origin: single(rays.origin),
-            axes: axes.map(single),
-            scale: step.map(|s| (1.0 / s) as f32),
-            middle: size.map(|s| ((s - 1.0) / 2.0) as f32),
-            last: size.map(|s| (s - 1.0) as f32),
-            perspective: rays.perspective,
+            origin: vector(projector.origin),
+            axes: projector.axes.map(vector),
+            scale: pair(projector.scale),
+            middle: pair(projector.middle),
+            last: pair(projector.last),
+            perspective: projector.perspective,
             // What they start off by is 2⁻²⁴ of where they start at most; rounded up, and more.
             spread: (projector.spread + 2.0 * projector.origin_error) as f32,
             origin_error: 2.0 * projector.origin_error as f32,
@@ -122,15 +118,15 @@ impl Lens {
 
     /// What the test in binary32 needs of a sphere that no ray meets before `least`, if it serves it.
     #[inline(always)]
-    pub(super) fn single<const PERSPECTIVE: bool>(
+    pub(super) fn project<const PERSPECTIVE: bool>(
         &self,
         sphere: &Sphere,
         least: f32,
-    ) -> Option<Single> {
+    ) -> Option<Projected> {
         if PERSPECTIVE {
-            Single::from_point(self.origin, sphere)
+            Projected::from_point(self.origin, sphere)
         } else {
-            Single::of_parallels(self.origin, self.spread, sphere, least)
+            Projected::of_parallels(self.origin, self.spread, sphere, least)
         }
     }
 
@@ -138,7 +134,7 @@ impl Lens {
     ///
     /// All of it in one loop, without a branch: then it is compiled to vectors.
     #[inline(always)]
-    fn bound<const PERSPECTIVE: bool>(&self, block: &mut Block, part: Bounds) {
+    fn bound<const PERSPECTIVE: bool>(&self, block: &mut Block, part: Bounds, lines_too: bool) {
         let [lefts, rights, tops, bottoms] =
             [part.left, part.right, part.top, part.bottom].map(i32::from);
         for i in 0..BLOCK {
@@ -164,7 +160,8 @@ impl Lens {
             } else {
                 true
             };
-            let served = (is_ahead | behind) & (reach >= LEAST_REACH) & (reach <= GREATEST_REACH);
+            let in_range = (reach >= LEAST_REACH) & (reach <= GREATEST_REACH);
+            let served = (is_ahead | behind) & in_range & !(lines_too & (z - r <= 0.0));
             let [left, right] = self.pixels(across, 0);
             let [top, bottom] = self.pixels(down, 1);
             let left = if left > lefts { left } else { lefts };
@@ -238,31 +235,39 @@ impl Block {
     /// Bounds those that binary32 does not serve.
     #[cold]
     #[inline(never)]
-    fn cover_others(&mut self, projector: &Projector, count: usize, part: Bounds) {
+    fn bound_others(
+        &mut self,
+        projector: &Projector,
+        interest: Interest,
+        count: usize,
+        part: Bounds,
+    ) {
         for i in (0..count).filter(|&i| self.served[i] == 0) {
-            let cover = projector.cover(&Sphere {
+            let sphere = Sphere {
                 center: Vec3::new(self.x[i], self.y[i], self.z[i]),
                 radius: self.radius[i],
-            });
-            let bounds = cover.bounds.within(part);
+            };
+            let window = interest.window(projector, &sphere);
+            let bounds = window.bounds.within(part);
             self.left[i] = bounds.left.into();
             self.right[i] = bounds.right.into();
             self.top[i] = bounds.top.into();
             self.bottom[i] = bounds.bottom.into();
-            self.least[i] = cover.least;
-            self.behind[i] = cover.behind.into();
+            self.least[i] = window.least;
+            self.behind[i] = window.behind.into();
             self.seen[i] = (!bounds.is_empty()).into();
         }
     }
 }
 
-impl Crowd {
+impl Windows {
     /// Bounds `count` spheres, of which this is the i-th, within `part`, and puts those with pixels there
     /// in order.
     #[inline(always)]
     pub(super) fn gather<'a>(
         &mut self,
         (lens, projector): (&Lens, &Projector),
+        interest: Interest,
         count: usize,
         sphere: impl Fn(usize) -> &'a Sphere,
         part: Bounds,
@@ -271,20 +276,22 @@ impl Crowd {
         refill(&mut self.bounds, count, Bounds::NONE);
         refill(&mut self.least, count, 0.0);
         refill(&mut self.seen, count, 0);
+        let is_certified = interest.way == Way::Certified;
+        let lines_too = interest.view == View::Class;
         let mut block = Block::new();
         let mut seen = 0;
         let mut behind = 0;
         for first in (0..count).step_by(BLOCK) {
             let taken = (count - first).min(BLOCK);
             block.load(taken, |i| sphere(first + i));
-            if lens.perspective {
-                lens.bound::<true>(&mut block, part);
-            } else {
-                lens.bound::<false>(&mut block, part);
+            match (is_certified, lens.perspective) {
+                (true, true) => lens.bound::<true>(&mut block, part, lines_too),
+                (true, false) => lens.bound::<false>(&mut block, part, lines_too),
+                (false, _) => block.served[..taken].fill(0),
             }
             let served: u32 = block.served[..taken].iter().sum();
             if served < taken as u32 {
-                block.cover_others(projector, taken, part);
+                block.bound_others(projector, interest, taken, part);
             }
             behind += block.behind[..taken].iter().sum::<u32>();
             self.least[first..first + taken].copy_from_slice(&block.least[..taken]);
@@ -305,7 +312,12 @@ impl Crowd {
         counts.behind += u64::from(behind);
         counts.outside += count as u64 - seen as u64 - u64::from(behind);
         self.seen.truncate(seen);
-        self.put_in_order();
+        // Which is asked first saves work only where what is hidden may be left out.
+        self.put_in_order(if is_certified {
+            WORTH_ORDER
+        } else {
+            usize::MAX
+        });
     }
 
     /// Those that can be seen, were it not for others, about from front to back.
@@ -315,9 +327,9 @@ impl Crowd {
 
     /// Sorts by counting, by the bits of `least`: these are in the order of the numbers.
     #[inline(always)]
-    fn put_in_order(&mut self) {
+    fn put_in_order(&mut self, worth_it: usize) {
         self.order.clear();
-        if self.seen.len() < WORTH_ORDER {
+        if self.seen.len() < worth_it {
             self.order.extend_from_slice(&self.seen);
             return;
         }
@@ -352,7 +364,8 @@ mod tests {
 
     use super::*;
     use crate::method::Method;
-    use crate::scene::{Camera, PixelShape, Projection, Size};
+    use crate::render::projector::Reach;
+    use crate::scene::{Camera, PixelShape, Projection, Rays, Size};
 
     /// Anything from far less to far more, as a power of two.
     fn any_scale(least: f32, most: f32) -> impl Strategy<Value = f32> {
@@ -413,17 +426,22 @@ mod tests {
         sides.prop_map(|(width, height)| Size::new(width, height))
     }
 
-    /// Where the crowd has one sphere.
+    const SEEN: Interest = Interest {
+        way: Way::Certified,
+        view: View::Shade,
+    };
+
+    /// Where one sphere can be seen.
     fn bound(rays: &Rays, sphere: &Sphere) -> (Bounds, f32) {
         let projector = Projector::new(rays);
-        let lens = Lens::new(rays, &projector);
-        let mut crowd = Crowd::default();
+        let lenses = (&Lens::new(&projector), &projector);
+        let mut windows = Windows::default();
         let whole = Bounds::whole(rays.size);
         let mut counts = Counts::default();
-        crowd.gather((&lens, &projector), 1, |_| sphere, whole, &mut counts);
-        let found = crowd.in_order().len() as u64;
+        windows.gather(lenses, SEEN, 1, |_| sphere, whole, &mut counts);
+        let found = windows.in_order().len() as u64;
         assert_eq!(found + counts.behind + counts.outside, 1);
-        (crowd.bounds[0], crowd.least[0])
+        (windows.bounds[0], windows.least[0])
     }
 
     /// The pixels beside a box, some rows and columns of them, and those within it.
@@ -479,7 +497,7 @@ mod tests {
             prop_assume!(camera.check().is_ok());
             let rays = Rays::new(&camera, size, PixelShape::Aspect(1.0));
             let (bounds, _) = bound(&rays, &sphere);
-            let close = Projector::new(&rays).cover(&sphere).bounds;
+            let close = Projector::new(&rays).window(&sphere, Reach::Seen).bounds;
             prop_assert!(close.area() <= bounds.area(), "{close:?} {bounds:?}");
             // Where a pixel is far more than what the spheres are widened by.
             let is_coarse = rays.perspective && rays.down.length().min(rays.right.length()) > 1e-3;
@@ -502,7 +520,7 @@ mod tests {
         };
         let rays = Rays::new(&camera, Size::new(200, 120), PixelShape::Aspect(1.0));
         let projector = Projector::new(&rays);
-        let lens = Lens::new(&rays, &projector);
+        let lens = Lens::new(&projector);
         let (count, whole) = (5000, Bounds::whole(rays.size));
         let spheres: Vec<_> = (0..count)
             .map(|i| {
@@ -513,17 +531,18 @@ mod tests {
                 }
             })
             .collect();
-        let mut crowd = Crowd::default();
+        let mut windows = Windows::default();
         let lenses = (&lens, &projector);
-        crowd.gather(
+        windows.gather(
             lenses,
+            SEEN,
             spheres.len(),
             |i| &spheres[i],
             whole,
             &mut Counts::default(),
         );
-        let mut order = crowd.in_order().to_vec();
-        let depth = |i: &u32| crowd.least[*i as usize];
+        let mut order = windows.in_order().to_vec();
+        let depth = |i: &u32| windows.least[*i as usize];
         // The eye is 30 from the middle of a cube of side 20, whose depths fall into 128 to 256 buckets.
         let steps = order
             .windows(2)
@@ -531,6 +550,6 @@ mod tests {
         assert!(steps.fold(0.0, f32::max) < 20.0 / 64.0);
         order.sort_unstable();
         order.dedup();
-        assert_eq!(order, crowd.seen);
+        assert_eq!(order, windows.seen);
     }
 }

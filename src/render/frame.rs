@@ -1,30 +1,26 @@
 //! The frame: for each pixel, which sphere is seen, at which root, and what the view shows of it.
 //!
-//! Here are the arrays and what others read from them. What is asked, and what is left out, is
-//! decided in [`super::plan`]; `certified` asks `exact` the short way, `plain` asks any method.
-
-mod certified;
-mod memory;
-mod plain;
+//! What the last frame found is kept where it still holds. What is asked anew is decided in
+//! [`super::plan`] and found by [`super::search`].
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::Vec3;
 
 use super::View;
-use super::bounds::Eye;
-use super::cover::{Bounds, Projector};
-use super::crowd::Crowd;
+use super::bounds::Bounds;
 use super::field::Field;
-use super::layer::{Contact, Layer};
-use super::nearest::{Nearest, is_before};
+use super::finish::{Scope, finish};
+use super::layer::Contact;
+use super::memory::{MOST, Memory};
 use super::plan::{Plan, Way};
+use super::projected::is_before;
+use super::projector::Projector;
+use super::search::{Found, Question, Room};
 use super::shade;
-use crate::geometry::Sphere;
 use crate::method::Method;
 use crate::method::exact::Stage;
-use crate::scene::{Body, Rays, Scene, Size};
-use memory::{MOST, Memory};
+use crate::scene::{Rays, Scene, Size};
 
 /// What is seen at a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,9 +41,6 @@ pub enum Lost {
     Everything,
 }
 
-/// The least Δ/(4Ar²) of a miss that [`View::Delta`] shows: the line passes the centre at 2r.
-pub(super) const FARTHEST_MISS: f32 = -3.0;
-
 /// The answers for the pixels of one picture, in arrays that are kept from frame to frame.
 ///
 /// A picture is the same in whatever order its spheres are asked: the least t wins, and of two
@@ -56,18 +49,13 @@ pub(super) const FARTHEST_MISS: f32 = -3.0;
 pub struct Frame {
     plan: Plan,
     field: Field,
-    /// What is seen, where the method itself was asked everywhere.
-    asked: Layer,
-    /// What `exact` sees: of its frames what is seen, of the view that compares the two the truth.
-    nearest: Nearest,
-    /// Whether the roots that are seen are only about where the method has them.
-    roots_are_rough: bool,
-    /// Room to work in: some spheres at a time, and the numbers of those in one part of the picture.
-    crowd: Crowd,
+    /// What the method sees.
+    found: Found,
+    /// What `exact` sees, where the view holds the method to it.
+    truth: Found,
+    /// Room to work in, and the numbers of the spheres in some parts of the picture.
+    room: Room,
     there: Vec<u32>,
-    /// What the view shows of each pixel, if that is a number: its brightness, Δ/(4Ar²), the bits
-    /// lost, the place of its stage among all.
-    value: Vec<f32>,
     /// The least and the greatest finite root seen.
     range: Option<[f32; 2]>,
     memory: Memory,
@@ -107,7 +95,7 @@ impl Frame {
     fn find_range(&mut self) {
         let before = self.range;
         self.range = (self.plan.view() == View::Depth)
-            .then(|| range_of(&self.layer().t))
+            .then(|| range_of(&self.found.layer.t))
             .flatten();
         if self.range != before {
             self.differs_from = None;
@@ -123,48 +111,49 @@ impl Frame {
         self.find_range();
     }
 
-    /// Only works out where each sphere can be seen, as the first part of a whole frame, and forgets it;
+    /// Only works out where each sphere can be met, as the first part of a whole frame, and forgets it;
     /// how many can be. For measuring what planning costs.
     pub fn bound_only(&mut self, scene: &Scene, rays: &Rays, method: Method, view: View) -> usize {
         let plan = Plan::new(scene, rays, false, method, view);
-        match plan.way() {
-            Way::Certified => self.bound_certified(scene, rays),
-            Way::Widened | Way::Everything => {
-                let eye = Eye::new(rays);
-                let is_seen = |body: &&Body| !eye.window(&body.sphere, 1.0).is_empty();
-                scene.bodies.iter().filter(is_seen).count()
-            }
-        }
+        Question::new(&plan, &self.field, &scene.bodies, rays).bound(&mut self.room)
     }
 
     /// The whole picture anew.
     fn start(&mut self, scene: &Scene, rays: &Rays) {
         self.edition = EDITIONS.fetch_add(1, Ordering::Relaxed);
         self.differs_from = None;
-        let asks_for_bounds = self.plan.way() != Way::Certified || self.plan.view() == View::Class;
-        self.memory.forget(asks_for_bounds);
-        match self.plan.way() {
-            Way::Certified => self.start_certified(scene, rays),
-            Way::Widened | Way::Everything => self.start_plain(scene, rays),
-        }
+        self.memory.forget();
+        let (room, plan) = (&mut self.room, &mut self.plan);
+        let question = Question::new(plan, &self.field, &scene.bodies, rays);
+        self.found
+            .search_all(&question, room, &mut plan.counts, |bodies, bounds| {
+                self.memory.learn(bodies, bounds);
+            });
         self.memory.complete(&scene.bodies);
+        if plan.compares() {
+            let question = question.of_exact();
+            self.truth
+                .search_all(&question, room, &mut plan.truth, |_, _| ());
+        }
+        self.finish(scene, &[Bounds::whole(rays.size)]);
     }
 
     /// Only the pixels where a sphere that changed was or is.
     fn update(&mut self, scene: &Scene, rays: &Rays) {
         let changes = self.memory.changes().len();
-        let mut parts = [Bounds::NONE; 2 * MOST];
-        for (i, part) in parts.chunks_exact_mut(2).take(changes).enumerate() {
+        let mut boxes = [Bounds::NONE; MOST];
+        let mut parts = 0;
+        let (projector, interest) = (Projector::new(rays), self.plan.interest());
+        for i in 0..changes {
             let number = self.memory.changes()[i];
             let body = &scene.bodies[number as usize];
-            let after = self.bounds_of(&body.sphere, rays);
+            let after = interest.window(&projector, &body.sphere).bounds;
             let before = self.memory.replace(number, body, after);
-            part.copy_from_slice(&if before.is_apart_from(after) {
-                [before, after]
-            } else {
-                [before.union(after), Bounds::NONE]
-            });
+            for part in [before, after] {
+                parts = add_apart(&mut boxes, parts, part);
+            }
         }
+        let parts = &boxes[..parts];
         let redone: u64 = parts.iter().map(|part| part.area()).sum();
         let all = self.size().area() as u64;
         if redone > all / 2 {
@@ -175,34 +164,34 @@ impl Frame {
         self.differs_from = Some(self.edition);
         self.edition = EDITIONS.fetch_add(1, Ordering::Relaxed);
         self.redone.clear();
-        self.redone
-            .extend(parts.iter().filter(|part| !part.is_empty()));
-        for part in parts.into_iter().filter(|part| !part.is_empty()) {
-            match self.plan.way() {
-                Way::Certified => self.redo_certified(scene, rays, part),
-                Way::Widened | Way::Everything => self.redo_plain(scene, rays, part),
-            }
+        self.redone.extend(parts);
+        let (room, plan) = (&mut self.room, &mut self.plan);
+        self.memory.find_within(parts, &mut self.there);
+        let question = Question::new(plan, &self.field, &scene.bodies, rays);
+        self.found
+            .search_within(&question, &self.there, parts, room, &mut plan.counts);
+        if plan.compares() {
+            let question = question.of_exact();
+            self.truth
+                .search_within(&question, &self.there, parts, room, &mut plan.truth);
         }
+        self.finish(scene, parts);
     }
 
-    /// Where a sphere can be seen, as this frame remembers it.
-    fn bounds_of(&self, sphere: &Sphere, rays: &Rays) -> Bounds {
-        let reach = self.reach();
-        let line = || Eye::new(rays).window(sphere, reach);
-        let front = || Projector::new(rays).cover(sphere).bounds;
-        match (self.plan.way(), self.plan.view()) {
-            (Way::Certified, View::Class) => front().union(line()),
-            (Way::Certified, _) => front(),
-            (Way::Widened, _) => line(),
-            (Way::Everything, _) => Bounds::whole(rays.size),
-        }
+    /// Whether the roots that are seen are only about where the method has them.
+    fn roots_are_rough(&self) -> bool {
+        self.plan.way() == Way::Certified && !self.plan.view().shows_roots()
     }
 
-    /// What is seen.
-    fn layer(&self) -> &Layer {
-        match self.plan.way() {
-            Way::Certified => &self.nearest.layer,
-            Way::Widened | Way::Everything => &self.asked,
+    /// Works out within these parts what the view shows of what was found.
+    fn finish(&mut self, scene: &Scene, parts: &[Bounds]) {
+        let scope = Scope {
+            field: &self.field,
+            bodies: &scene.bodies,
+        };
+        for &part in parts {
+            let (found, truth) = (&mut self.found, &mut self.truth);
+            finish(scope, &mut self.plan, part, found, truth);
         }
     }
 
@@ -244,7 +233,7 @@ impl Frame {
 
     /// The place in the scene's list of the sphere that is seen at pixel (x, y), if one is.
     pub fn seen(&self, x: u32, y: u32) -> Option<u32> {
-        self.layer().seen(self.index(x, y)?)
+        self.found.layer.seen(self.index(x, y)?)
     }
 
     /// The nearest visible hit at pixel (x, y), if there is one; nothing outside the picture.
@@ -254,12 +243,12 @@ impl Frame {
     pub fn hit(&self, scene: &Scene, x: u32, y: u32) -> Option<Hit> {
         let body = self.seen(x, y)?;
         let place = self.index(x, y)?;
-        let t = if self.roots_are_rough {
+        let t = if self.roots_are_rough() {
             let sphere = &scene.bodies.get(body as usize)?.sphere;
             let ray = self.field.ray(place);
             self.plan.method().solve(&ray, sphere).visible()?
         } else {
-            self.layer().t[place]
+            self.found.layer.t[place]
         };
         Some(Hit { body, t })
     }
@@ -269,12 +258,12 @@ impl Frame {
     /// Only [`View::Class`] tells what is behind the eye; for the other views it is a miss.
     pub fn contact(&self, x: u32, y: u32) -> Contact {
         self.index(x, y)
-            .map_or(Contact::Miss, |i| self.layer().contact(i))
+            .map_or(Contact::Miss, |i| self.found.layer.contact(i))
     }
 
     fn value(&self, view: View, x: u32, y: u32) -> Option<f32> {
         let i = self.index(x, y)?;
-        (self.plan.view() == view).then(|| self.value[i])
+        (self.plan.view() == view).then(|| self.found.value[i])
     }
 
     /// How bright the hit at pixel (x, y) is, from 0 to 1; 0 where nothing is hit, and in views
@@ -317,8 +306,8 @@ impl Frame {
             method: self.plan.method(),
             ray: &self.field.ray(i),
             sphere: &scene.bodies.get(self.seen(x, y)? as usize)?.sphere,
-            t: self.layer().t[i],
-            place: self.layer().contact(i).visible_root(),
+            t: self.found.layer.t[i],
+            place: self.found.layer.contact(i).place(),
         };
         let normal = hit.normal().try_normalize()?;
         let axes = [camera.right, -camera.down, -camera.direction];
@@ -365,7 +354,7 @@ impl Frame {
         let [Some(i), Some(j)] = [there, here].map(|(x, y)| self.index(x, y)) else {
             return false;
         };
-        let layer = self.layer();
+        let layer = &self.found.layer;
         let [there_is, here_is] = [i, j].map(|place| (layer.t[place], layer.seen(place)));
         if there_is.1 == here_is.1 {
             return false;
@@ -387,8 +376,26 @@ impl Frame {
     }
 }
 
-/// The least and the greatest number that is finite.
+/// Adds a box to the first so many, which have no pixel in common, so that this stays so: those that it
+/// meets it swallows. How many there are then; without room for another one it joins one of them.
+fn add_apart(boxes: &mut [Bounds], mut count: usize, mut part: Bounds) -> usize {
+    if part.is_empty() {
+        return count;
+    }
+    while let Some(i) = boxes[..count]
+        .iter()
+        .position(|other| count == boxes.len() || !other.is_apart_from(part))
+    {
+        part = part.union(boxes[i]);
+        count -= 1;
+        boxes.swap(i, count);
+    }
+    boxes[count] = part;
+    count + 1
+}
+
+/// The least and the greatest number that is finite and has a logarithm.
 fn range_of(t: &[f32]) -> Option<[f32; 2]> {
-    let finite = || t.iter().copied().filter(|t| t.is_finite());
+    let finite = || t.iter().copied().filter(|&t| t.is_finite() && t > 0.0);
     Some([finite().reduce(f32::min)?, finite().reduce(f32::max)?])
 }

@@ -1,7 +1,7 @@
 //! What a frame remembers of its spheres, to find out which of them the next one changes.
 
+use super::bounds::Bounds;
 use crate::geometry::Sphere;
-use crate::render::cover::Bounds;
 use crate::scene::{Body, Rgb};
 
 /// With more changes than this a picture is made anew.
@@ -51,10 +51,9 @@ fn differs(before: &Look, after: &Look) -> bool {
 }
 
 impl Memory {
-    /// Forgets all spheres, for a whole frame; `all` of them will be asked for within it.
-    pub(super) fn forget(&mut self, all: bool) {
+    /// Forgets all spheres, for a whole frame.
+    pub(super) fn forget(&mut self) {
         self.is_complete = false;
-        self.is_restless &= !all;
         self.spheres.clear();
         self.bounds.clear();
     }
@@ -70,12 +69,6 @@ impl Memory {
         let bodies = bodies[..wanted].iter();
         self.spheres.extend(bodies.map(look));
         self.bounds.extend(&bounds[..wanted]);
-    }
-
-    /// Remembers that the sphere of this number can be seen there, too.
-    pub(super) fn add(&mut self, number: usize, bounds: Bounds) {
-        self.bounds
-            .set(number, self.bounds.get(number).union(bounds));
     }
 
     /// Notes whether all of these were learnt.
@@ -118,15 +111,10 @@ impl Memory {
         before
     }
 
-    /// Where a sphere can be seen.
-    pub(super) fn bounds(&self, number: usize) -> Bounds {
-        self.bounds.get(number)
-    }
-
-    /// The spheres that can be seen within `part`.
-    pub(super) fn find_within(&self, part: Bounds, found: &mut Vec<u32>) {
+    /// The spheres that can be seen within any of the parts.
+    pub(super) fn find_within(&self, parts: &[Bounds], found: &mut Vec<u32>) {
         found.clear();
-        self.bounds.find(part, found);
+        self.bounds.find(parts, found);
     }
 }
 
@@ -177,20 +165,22 @@ impl Boxes {
         self.bottom[i] = bounds.bottom;
     }
 
-    /// The numbers of those that have a pixel in common with `part`.
-    fn find(&self, part: Bounds, found: &mut Vec<u32>) {
-        let mut here = [0; BLOCK];
+    /// The numbers of those that have a pixel in common with any of the parts.
+    fn find(&self, parts: &[Bounds], found: &mut Vec<u32>) {
         for first in (0..self.len()).step_by(BLOCK) {
             let length = BLOCK.min(self.len() - first);
             let [left, right, top, bottom] = [&self.left, &self.right, &self.top, &self.bottom]
                 .map(|ends| &ends[first..first + length]);
+            let mut here = [0; BLOCK];
             let mut any = 0;
-            for i in 0..length {
-                here[i] = i16::from(left[i] <= part.right)
-                    & i16::from(right[i] >= part.left)
-                    & i16::from(top[i] <= part.bottom)
-                    & i16::from(bottom[i] >= part.top);
-                any |= here[i];
+            for part in parts {
+                for i in 0..length {
+                    here[i] |= i16::from(left[i] <= part.right)
+                        & i16::from(right[i] >= part.left)
+                        & i16::from(top[i] <= part.bottom)
+                        & i16::from(bottom[i] >= part.top);
+                    any |= here[i];
+                }
             }
             if any != 0 {
                 let numbered = (first as u32..).zip(&here[..length]);

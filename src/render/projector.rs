@@ -1,15 +1,26 @@
-//! Where a sphere can be seen: a box of pixels, its columns in each row, and a lower bound of t.
+//! Where a sphere can be met: a box of pixels, its columns in each row, and a lower bound of t.
 //!
-//! Of what lies before the eye only, and for a method whose class is right: the box holds every
-//! pixel whose ray, as rounded, meets the sphere at t > 0. [`super::crowd`] does the same for many
-//! spheres at once. Methods that may err are served by [`super::bounds`].
+//! Worked out in binary64, one by one. [`super::windows`] does it in binary32 for many spheres that are
+//! seen before the eye.
 
 use glam::DVec3;
 
+use super::bounds::Bounds;
 use super::field::TILE;
 use super::lanes::Real;
 use crate::geometry::Sphere;
 use crate::scene::{Rays, Size};
+
+/// Which rays are of interest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Reach {
+    /// Those that meet the sphere at t > 0, as `exact` has it.
+    Seen,
+    /// Those whose line passes the centre at so many radii or less, as any method may have it.
+    Lines(f64),
+    /// All.
+    Everything,
+}
 
 /// A sphere is widened by this share of its distance and radius before it is projected.
 ///
@@ -17,147 +28,55 @@ use crate::scene::{Rays, Size};
 /// should. The rest of 2⁻²⁰ is far more than the rounding of the projection, in binary64.
 const RAY_ERROR: f64 = 1.0 / (1 << 20) as f64;
 
+/// The error that a method can make in Δ/4A is at most this times ‖o‖² + r².
+///
+/// With u = 2⁻²⁴: o is off by u in each component; A, b and C by 4u of ‖d‖², ‖d‖‖o‖ and ‖o‖² + r²
+/// at most, so b² − AC by less than 22u·A·(‖o‖² + r²). The perpendicular form is off by 10u·‖o‖ in
+/// each component of its vector, so by less than 40u·‖o‖² in its square. 2⁻¹⁸ = 64u holds both.
+const DISCRIMINANT_ERROR: f64 = 1.0 / (1 << 18) as f64;
+
+/// Up to this distance and radius, and with directions up to `LONGEST`, no method in binary32
+/// overflows: B² ≤ 4·‖d‖²·‖o‖² < 2¹²⁴.
+const FARTHEST: f64 = (1_u64 << 40) as f64;
+const LONGEST: f64 = (1_u64 << 20) as f64;
+
+/// More than what underflow to zero can take from any product, as a length.
+const UNDERFLOW: f64 = 1.0 / (1_u64 << 60) as f64;
+
 /// How far from a pixel a bound may lie and still count as on it: more than the rounding of a
 /// coordinate that is not beyond every picture.
 const NEARLY: f64 = 1.0 / 1024.0;
 
-/// Pixels from `left` to `right` and from `top` to `bottom`, all inclusive; none if a first one is
-/// beyond its last.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Bounds {
-    pub left: i16,
-    pub right: i16,
-    pub top: i16,
-    pub bottom: i16,
-}
-
-impl Bounds {
-    /// No pixel.
-    pub(super) const NONE: Self = Self {
-        left: i16::MAX,
-        right: -1,
-        top: i16::MAX,
-        bottom: -1,
-    };
-
-    /// All pixels of a picture.
-    pub(super) const fn whole(size: Size) -> Self {
-        Self {
-            left: 0,
-            right: size.width as i16 - 1,
-            top: 0,
-            bottom: size.height as i16 - 1,
-        }
-    }
-
-    /// Whether there is no pixel.
-    pub(super) const fn is_empty(self) -> bool {
-        self.left > self.right || self.top > self.bottom
-    }
-
-    /// How many rows there are.
-    pub(super) const fn rows(self) -> u64 {
-        if self.is_empty() {
-            0
-        } else {
-            (self.bottom - self.top) as u64 + 1
-        }
-    }
-
-    /// How many pixels there are.
-    pub(super) const fn area(self) -> u64 {
-        if self.is_empty() {
-            0
-        } else {
-            self.rows() * ((self.right - self.left) as u64 + 1)
-        }
-    }
-
-    /// Whether the two have no pixel in common, if `other` has any.
-    #[inline(always)]
-    #[expect(clippy::needless_bitwise_bool, reason = "one branch for all")]
-    pub(super) const fn is_apart_from(self, other: Self) -> bool {
-        (self.left > other.right)
-            | (self.right < other.left)
-            | (self.top > other.bottom)
-            | (self.bottom < other.top)
-    }
-
-    /// The pixels that the two have in common.
-    #[inline(always)]
-    pub(super) const fn within(self, other: Self) -> Self {
-        const fn most(a: i16, b: i16) -> i16 {
-            if a > b { a } else { b }
-        }
-        const fn least(a: i16, b: i16) -> i16 {
-            if a < b { a } else { b }
-        }
-        Self {
-            left: most(self.left, other.left),
-            right: least(self.right, other.right),
-            top: most(self.top, other.top),
-            bottom: least(self.bottom, other.bottom),
-        }
-    }
-
-    /// With the pixels beside it, as far as the picture goes.
-    pub(super) fn widened(self, size: Size) -> Self {
-        if self.is_empty() {
-            return self;
-        }
-        Self {
-            left: self.left - 1,
-            right: self.right + 1,
-            top: self.top - 1,
-            bottom: self.bottom + 1,
-        }
-        .within(Self::whole(size))
-    }
-
-    /// The least rectangle that holds both.
-    pub(super) fn union(self, other: Self) -> Self {
-        if self.is_empty() {
-            return other;
-        }
-        if other.is_empty() {
-            return self;
-        }
-        Self {
-            left: self.left.min(other.left),
-            right: self.right.max(other.right),
-            top: self.top.min(other.top),
-            bottom: self.bottom.max(other.bottom),
-        }
-    }
-}
-
-/// Where a sphere can be seen.
+/// Where a sphere can be met.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Cover {
-    /// The pixels that it can cover; none if it lies behind the eye.
+pub(super) struct Window {
+    /// The pixels whose rays can meet it so.
     pub bounds: Bounds,
-    /// No visible root is below this.
+    /// No visible root is below this; 0 if the sphere may lie behind the eye in part.
     pub least: f32,
-    /// Whether it lies behind the eye.
+    /// Whether it lies behind the eye, and that is of no interest.
     pub behind: bool,
 }
 
 /// What projecting needs of a camera: unit axes, and the pixel step along each.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Projector {
-    origin: DVec3,
+    pub(super) size: Size,
+    pub(super) origin: DVec3,
     /// Right, down and forward.
-    axes: [DVec3; 3],
+    pub(super) axes: [DVec3; 3],
     /// Pixels to a unit of slope (perspective) or of length (orthographic).
-    scale: [f64; 2],
+    pub(super) scale: [f64; 2],
     /// The pixel, in fractions, of the middle of the picture.
-    middle: [f64; 2],
-    last: [f64; 2],
-    perspective: bool,
+    pub(super) middle: [f64; 2],
+    pub(super) last: [f64; 2],
+    pub(super) perspective: bool,
     /// How far off a ray may start.
     pub(super) origin_error: f64,
     /// How far from `origin` it starts at most, those beyond the right edge included.
     pub(super) spread: f64,
+    /// How long a direction is at most, that at the centre being 1.
+    longest: f64,
 }
 
 impl Projector {
@@ -165,12 +84,13 @@ impl Projector {
         let step = [rays.right.length(), rays.down.length()];
         let size = [rays.size.width, rays.size.height].map(f64::from);
         let spread = (step[0] * (size[0] + TILE as f64)).hypot(step[1] * size[1]);
-        let (spread, origin_error) = if rays.perspective {
-            (0.0, 0.0)
+        let (spread, origin_error, longest) = if rays.perspective {
+            (0.0, 0.0, 1.0_f64.hypot(spread))
         } else {
-            (spread, RAY_ERROR * (rays.origin.length() + spread))
+            (spread, RAY_ERROR * (rays.origin.length() + spread), 1.0)
         };
         Self {
+            size: rays.size,
             origin: rays.origin,
             axes: [
                 rays.right / step[0],
@@ -183,54 +103,115 @@ impl Projector {
             perspective: rays.perspective,
             origin_error,
             spread,
+            longest,
         }
     }
 
-    /// Where one sphere can be seen.
-    pub(super) fn cover(&self, sphere: &Sphere) -> Cover {
-        let center = sphere.center.as_dvec3();
-        let o = center - self.origin;
-        let radius = f64::from(sphere.radius);
+    /// Where one sphere can be met.
+    pub(super) fn window(&self, sphere: &Sphere, reach: Reach) -> Window {
+        let o = sphere.center.as_dvec3() - self.origin;
         let [a, b, z] = self.axes.map(|axis| axis.dot(o));
-        let widened = self.widened(o, radius);
-        let behind = z + widened <= 0.0;
-        let least = ((z - widened) * (1.0 - 2.0 * RAY_ERROR)).at_least(0.0);
-        let [left, right] = self.pixels(self.span(a, z, widened), 0);
-        let [top, bottom] = self.pixels(self.span(b, z, widened), 1);
+        let Some(radius) = self.widened(o, sphere, reach) else {
+            return Window {
+                bounds: Bounds::whole(self.size),
+                least: 0.0,
+                behind: false,
+            };
+        };
+        let [left, right] = self.pixels(self.span(a, z, radius, reach), 0);
+        let [top, bottom] = self.pixels(self.span(b, z, radius, reach), 1);
         let bounds = Bounds {
             left,
             right,
             top,
             bottom,
         };
-        Cover {
-            // What is not a number is not behind.
+        // What is not a number is not behind.
+        let behind = reach == Reach::Seen && z + radius <= 0.0;
+        Window {
             bounds: if behind { Bounds::NONE } else { bounds },
-            least: least as f32,
+            least: if reach == Reach::Seen {
+                self.least(z, sphere, radius)
+            } else {
+                0.0
+            },
             behind,
         }
     }
 
-    /// The radius, and more than what the rays are off by where they pass.
-    fn widened(&self, o: DVec3, radius: f64) -> f64 {
-        // At least |o| + r.
-        let reach = o.abs().element_sum() + radius + self.spread;
-        radius + RAY_ERROR * reach + self.origin_error
+    /// Below this no root is seen: a ray goes no farther ahead than t, and no farther at all than t times
+    /// the length of its direction.
+    fn least(&self, z: f64, sphere: &Sphere, widened: f64) -> f32 {
+        let to_the_front = z - widened;
+        let from_within = self.inner(sphere) / self.longest;
+        let least = to_the_front.at_least(from_within);
+        (least * (1.0 - 2.0 * RAY_ERROR)).at_least(0.0) as f32
     }
 
-    /// The columns that one sphere can cover in each row.
-    pub(super) fn spans(&self, sphere: &Sphere) -> Spans {
+    /// How far the eye is at least from the surface of a sphere that it is within; not above 0 for others.
+    pub(super) fn inner(&self, sphere: &Sphere) -> f64 {
         let o = sphere.center.as_dvec3() - self.origin;
-        let widened = self.widened(o, sphere.radius.into());
+        let r = f64::from(sphere.radius);
+        if self.perspective {
+            r - o.length() - RAY_ERROR * (o.abs().element_sum() + r)
+        } else {
+            0.0
+        }
+    }
+
+    /// The radius of a sphere that all lines of interest meet, those that the rays are off by included; none
+    /// if that is not known.
+    ///
+    /// A method that errs by E in Δ/4A takes the line at distance p from the centre for one that passes
+    /// within k radii, where Δ/4A > (1 − k²) r², only if p² ≤ (k r)² + E.
+    fn widened(&self, o: DVec3, sphere: &Sphere, reach: Reach) -> Option<f64> {
+        let radius = f64::from(sphere.radius);
+        // At least |o| + r.
+        let size = o.abs().element_sum() + radius + self.spread;
+        match reach {
+            Reach::Seen => Some(radius + RAY_ERROR * size + self.origin_error),
+            Reach::Lines(times) => {
+                let distance = o.length() + self.spread;
+                let is_ordinary =
+                    self.longest <= LONGEST && distance <= FARTHEST && radius <= FARTHEST;
+                let error = DISCRIMINANT_ERROR * (distance * distance + radius * radius);
+                let taken = (times * radius * times * radius + error).sqrt();
+                let rays = RAY_ERROR * (size + self.origin.length());
+                is_ordinary.then_some(taken + rays + UNDERFLOW)
+            }
+            Reach::Everything => None,
+        }
+    }
+
+    /// The columns in which one sphere can be met in each row, where they can be told.
+    pub(super) fn spans(&self, sphere: &Sphere, reach: Reach) -> Option<Spans> {
+        let o = sphere.center.as_dvec3() - self.origin;
+        let widened = self.widened(o, sphere, reach)?;
         let center = self.axes.map(|axis| o.dot(axis));
-        Spans::new(center, widened, self.perspective).in_pixels(self.scale, self.middle)
+        let spans = Spans::new(center, widened, self.perspective);
+        let spans = spans.in_pixels(self.scale, self.middle);
+        Some(if reach == Reach::Seen {
+            spans
+        } else {
+            spans.of_lines()
+        })
     }
 
     /// What a circle of this radius about the point `a` to the side and `z` ahead covers, as seen from
     /// the origin: slopes (perspective) or lengths.
-    fn span(&self, a: f64, z: f64, radius: f64) -> [f64; 2] {
+    fn span(&self, a: f64, z: f64, radius: f64, reach: Reach) -> [f64; 2] {
         if !self.perspective {
             return [a - radius, a + radius];
+        }
+        let of_lines = reach != Reach::Seen;
+        // A line knows no front and back: what is behind the eye is seen upside down.
+        let (a, z) = if of_lines && z < 0.0 {
+            (-a, -z)
+        } else {
+            (a, z)
+        };
+        if of_lines && z <= radius * (1.0 + RAY_ERROR) {
+            return [f64::NEG_INFINITY, f64::INFINITY];
         }
         // The tangents from the origin, l long, have the directions (a l ∓ z r, z l ± a r). One that
         // points backwards leaves that side open; without tangents l is not a number.
