@@ -8,10 +8,15 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
+use ratatui::style::{Color, Style as CellStyle};
 use rayscope::lab::frames::scene;
 use rayscope::method::Method;
+use rayscope::render::Cell as Drawn;
 use rayscope::render::{ColorDepth, Frame, Image, Look, Style, View};
-use rayscope::scene::{PixelShape, Rays, Size};
+use rayscope::scene::{PixelShape, Rays, Rgb, Size};
+use rayscope::terminal::{Limits, Painter};
 
 thread_local! {
     static TAKEN: Cell<usize> = const { Cell::new(0) };
@@ -37,6 +42,15 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
+/// Writes the cells of an image into a buffer.
+fn put(image: &Image, buffer: &mut Buffer) {
+    let color = |color: Option<Rgb>| color.map_or(Color::Reset, |Rgb(r, g, b)| Color::Rgb(r, g, b));
+    for (cell, &Drawn { glyph, fg, bg }) in buffer.content.iter_mut().zip(&image.cells) {
+        cell.set_char(glyph)
+            .set_style(CellStyle::reset().fg(color(fg)).bg(color(bg)));
+    }
+}
+
 #[test]
 fn frames_that_follow_each_other_allocate_nothing() {
     let scenes = [1, 2].map(|seed| scene(2000, seed));
@@ -51,17 +65,23 @@ fn frames_that_follow_each_other_allocate_nothing() {
     for method in [Method::Exact, Method::Kahan] {
         for view in View::ALL {
             let (mut frame, mut image) = (Frame::new(), Image::new());
+            let (mut painter, area) = (Painter::default(), Rect::new(0, 0, 80, 24));
+            let mut cells = Buffer::empty(area);
             let mut moved = scenes[0].clone();
             let mut round = || {
                 for scene in &scenes {
                     frame.render(scene, &rays, method, view);
                     image.draw(&frame, scene, look);
+                    put(&image, &mut cells);
+                    painter.paint(&mut cells, None, Limits::default());
                 }
                 frame.render(&moved, &rays, method, view);
                 for _ in 0..3 {
                     moved.bodies[1000].sphere.center.x += 0.01;
                     frame.render(&moved, &rays, method, view);
                     image.draw(&frame, &moved, look);
+                    put(&image, &mut cells);
+                    painter.paint(&mut cells, None, Limits::default());
                 }
             };
             // The second round still finds room that only now is needed.

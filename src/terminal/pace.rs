@@ -17,8 +17,13 @@ pub const QUERY: &[u8] = b"\x1b[5n";
 
 /// So many bytes may go out before the next query.
 const UNASKED: usize = 1024;
-/// So many bytes may be unanswered when a frame is started.
+/// This many bytes may be unanswered when a frame is started: as many as a slow link takes in a moment; up
+/// to this many where answers come as fast as ever although frames wait for them.
 const WINDOW: usize = 4096;
+const LARGEST_WINDOW: usize = 16 * WINDOW;
+/// What an answer may take beside the way to and fro and still be fast, and what makes it late.
+const FAST: Duration = Duration::from_millis(25);
+const LATE: Duration = Duration::from_millis(100);
 /// A terminal that has never answered is given this long.
 const FIRST_ANSWER: Duration = Duration::from_secs(1);
 /// One that has answered before is given this long, and is written to then all the same.
@@ -97,6 +102,11 @@ pub struct Pace {
     habit: Habit,
     /// From a query to its answer, the last time.
     round_trip: Option<Duration>,
+    /// The shortest time that took.
+    fastest: Option<Duration>,
+    /// By how many times [`WINDOW`] has grown, and whether a frame had to wait since the last answer.
+    growth: usize,
+    held: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -144,8 +154,22 @@ impl Pace {
     pub fn answered(&mut self, now: Instant) {
         self.habit = Habit::Answers;
         if let Some((asked, _)) = self.unanswered.pop_front() {
-            self.round_trip = Some(now.saturating_duration_since(asked));
+            let round_trip = now.saturating_duration_since(asked);
+            self.round_trip = Some(round_trip);
+            self.fit_window(round_trip);
         }
+    }
+
+    /// Lets more go out if only the length of the way held a frame up, and less if bytes queue.
+    fn fit_window(&mut self, round_trip: Duration) {
+        let fastest = self.fastest.map_or(round_trip, |t| t.min(round_trip));
+        self.fastest = Some(fastest);
+        if round_trip > 2 * fastest + LATE {
+            self.growth /= 2;
+        } else if self.held && round_trip <= fastest + fastest / 4 + FAST {
+            self.growth = (2 * self.growth + 1).min(LARGEST_WINDOW / WINDOW - 1);
+        }
+        self.held = false;
     }
 
     /// How long the answer to a query may take until it is taken not to come.
@@ -168,9 +192,10 @@ impl Pace {
     pub fn due(&mut self, now: Instant) -> Option<Instant> {
         let bytes: usize = self.unanswered.iter().map(|(_, n)| n).sum();
         let &(oldest, _) = self.unanswered.front()?;
-        if bytes < WINDOW {
+        if bytes < WINDOW * (self.growth + 1) {
             return None;
         }
+        self.held = true;
         let patience = self.patience();
         if now < oldest + patience {
             return Some(oldest + patience);
@@ -193,6 +218,7 @@ impl Pace {
     pub fn forget(&mut self) {
         self.unanswered.clear();
         self.unasked = 0;
+        (self.fastest, self.growth, self.held) = (None, 0, false);
     }
 }
 
@@ -346,5 +372,37 @@ mod tests {
         wrote(&mut pace, 5000, start);
         pace.answered(start + Duration::from_secs(60));
         assert_eq!(pace.last_patience(), LONGEST_LAST_ANSWER);
+    }
+
+    /// A person moves for three seconds, and each frame is of 3000 bytes. How many there are on a link of
+    /// this round trip in milliseconds and rate in bytes a millisecond, and how long the last one takes.
+    fn frames_of(round_trip: u64, rate: u64) -> (u64, u64) {
+        let start = Instant::now();
+        let mut pace = Pace::default();
+        let mut answers = VecDeque::new();
+        let [mut free, mut frames, mut last] = [0; 3];
+        for ms in 0..3000 {
+            while answers.front().is_some_and(|&at| at <= ms) {
+                answers.pop_front();
+                pace.answered(after(start, ms));
+            }
+            let is_next = frames == 0 || ms >= last + 50;
+            if is_next && pace.due(after(start, ms)).is_none() {
+                wrote(&mut pace, 3000, after(start, ms));
+                free = ms.max(free) + 3000 / rate;
+                answers.push_back(free + round_trip);
+                (frames, last) = (frames + 1, ms);
+            }
+        }
+        (frames, answers.back().map_or(0, |at| at - last))
+    }
+
+    #[test]
+    fn a_long_way_is_no_slow_link() {
+        let (frames, _) = frames_of(300, 10_000);
+        assert!(frames > 30, "{frames}");
+        // At 10 KB a second three seconds take ten frames, and none waits behind more than a few.
+        let (frames, wait) = frames_of(20, 10);
+        assert!(frames <= 14 && wait < 1500, "{frames} {wait}");
     }
 }

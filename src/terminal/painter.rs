@@ -4,9 +4,10 @@
 //! both colours wherever one changes. Over a slow link bytes are time, so this one writes the
 //! cheapest that shows the same cells: no colour that does not show, the shortest way to the next
 //! cell, the cells of a short gap again rather than a jump over it; and row by row or ink by ink,
-//! whichever takes less.
+//! whichever takes less. It takes no more time than that backend, and once it has room no memory.
 
 use std::collections::HashMap;
+use std::hash::{BuildHasherDefault, Hasher};
 
 use ratatui::buffer::{Buffer, Cell};
 use ratatui::layout::Position;
@@ -56,10 +57,11 @@ pub struct Painter {
     lost: bool,
     limits: Limits,
     cursor_visible: bool,
-    /// Where the terminal's cursor is, if that is known, and how the terminal writes.
-    at: Option<Position>,
-    ink: Ink,
+    pen: Pen,
     out: Vec<u8>,
+    /// For each row whether it has or had wide characters.
+    wide_rows: Vec<bool>,
+    room: Room,
 }
 
 impl Default for Painter {
@@ -70,9 +72,10 @@ impl Default for Painter {
             lost: true,
             limits: Limits::default(),
             cursor_visible: true,
-            at: None,
-            ink: Ink::default(),
+            pen: Pen::default(),
             out: Vec::new(),
+            wide_rows: Vec::new(),
+            room: Room::default(),
         }
     }
 }
@@ -95,20 +98,19 @@ impl Painter {
         if self.lost {
             self.out.extend_from_slice(RESET_AND_CLEAR);
             self.shown = Buffer::empty(next.area);
-            (self.at, self.ink) = (None, Ink::default());
+            self.pen = Pen::default();
         }
-        let rows: Vec<_> = changed_rows(&self.shown, next, limits).collect();
-        let start_of_rows = Pen {
-            out: Vec::new(),
-            at: self.at,
-            ink: self.ink,
+        self.room
+            .find_stretches(&self.shown, next, limits, &mut self.wide_rows);
+        let page = Page {
+            buffer: next,
+            limits,
+            wide_rows: &self.wide_rows,
         };
-        let mut pen = start_of_rows.shortest(&rows);
+        self.pen = self.room.paint(self.pen, page, &mut self.out);
         if let Some(position) = cursor {
-            pen.go(position, &[]);
+            self.pen.go(position, None, &mut self.out);
         }
-        self.out.extend_from_slice(&pen.out);
-        (self.at, self.ink) = (pen.at, pen.ink);
         if self.lost || cursor.is_some() != self.cursor_visible {
             self.cursor_visible = cursor.is_some();
             self.out.extend_from_slice(if self.cursor_visible {
@@ -127,8 +129,8 @@ impl Painter {
     }
 }
 
-/// What a cell looks like. Two that look the same are the same: what does not show is left at its
-/// default.
+/// What a cell looks like, or that it is the right half of the character before it. Two that look the same
+/// are the same: what does not show is left at its default.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Look<'a> {
     /// Characters.
@@ -144,11 +146,7 @@ enum Look<'a> {
 
 impl<'a> Look<'a> {
     fn of(cell: &'a Cell, limits: Limits) -> Self {
-        let symbol = match cell.symbol() {
-            "" => " ",
-            symbol if limits.ascii && !symbol.is_ascii() => "?",
-            symbol => symbol,
-        };
+        let symbol = symbol(cell, limits);
         let (mut fg, mut bg, mut modifier) = (cell.fg, cell.bg, cell.modifier);
         if limits.colorless {
             (fg, bg) = (Color::Reset, Color::Reset);
@@ -190,6 +188,24 @@ impl<'a> Look<'a> {
     }
 }
 
+/// The characters that are sent for a cell.
+fn symbol(cell: &Cell, limits: Limits) -> &str {
+    match cell.symbol() {
+        "" => " ",
+        symbol if limits.ascii && !symbol.is_ascii() => "?",
+        symbol => symbol,
+    }
+}
+
+/// How many columns these characters take.
+fn width(symbol: &str) -> u16 {
+    match symbol.as_bytes() {
+        // ASCII, and the lines, blocks and dots of which most screens consist.
+        [_] | [0xe2, 0x94..=0x95 | 0xa0..=0xa3, _] | [0xe2, 0x96, 0x80..=0x9f] => 1,
+        _ => symbol.width().max(1) as u16,
+    }
+}
+
 /// What a character wants the pen to be; what does not show on it is left open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 struct Want {
@@ -223,7 +239,10 @@ impl Want {
     }
 }
 
-/// How the terminal writes now.
+/// About how many bytes another colour takes.
+const ONE_COLOR: u8 = 8;
+
+/// With which colours and modifiers the terminal writes now.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 struct Ink {
     fg: Color,
@@ -239,7 +258,7 @@ impl Ink {
     /// About how many bytes the way to that ink takes.
     fn distance(self, want: Want) -> u8 {
         let after = self.after(want);
-        let color = |one, other| if one == other { 0 } else { 8 };
+        let color = |one, other| if one == other { 0 } else { ONE_COLOR };
         color(self.fg, after.fg)
             + color(self.bg, after.bg)
             + if self.modifier == after.modifier {
@@ -258,336 +277,545 @@ impl Ink {
     }
 }
 
-/// Writes at a place with an ink.
-#[derive(Debug, Clone)]
+/// Changed cells beside each other that one ink can write.
+#[derive(Debug, Clone, Copy)]
+struct Stretch {
+    /// The row, its first column, and the one after its last.
+    y: u16,
+    from: u16,
+    to: u16,
+    want: Want,
+    /// The pass in which it is written, ink by ink.
+    pass: u32,
+}
+
+/// Where and how the terminal writes now.
+#[derive(Debug, Clone, Copy, Default)]
 struct Pen {
-    out: Vec<u8>,
     /// Where the terminal's cursor is, if that is known.
     at: Option<Position>,
     ink: Ink,
 }
 
-/// A row of which something changed: where it starts, and how it looked and looks.
-struct Row<'a> {
-    start: Position,
-    before: Vec<Look<'a>>,
-    after: Vec<Look<'a>>,
-}
-
-fn changed_rows<'a>(
-    shown: &'a Buffer,
-    next: &'a Buffer,
+/// The cells to be shown.
+#[derive(Clone, Copy)]
+struct Page<'a> {
+    buffer: &'a Buffer,
     limits: Limits,
-) -> impl Iterator<Item = Row<'a>> {
-    let width = usize::from(next.area.width);
-    let cells = move |buffer: &'a Buffer, i: usize| &buffer.content[i * width..(i + 1) * width];
-    let rows = (next.area.top()..next.area.bottom()).enumerate();
-    let changed = rows.filter(move |&(i, _)| cells(shown, i) != cells(next, i));
-    changed.map(move |(_, y)| Row {
-        start: Position::new(next.area.x, y),
-        before: looks(shown, y, limits).collect(),
-        after: looks(next, y, limits).collect(),
-    })
+    /// For each row whether it has or had wide characters.
+    wide_rows: &'a [bool],
 }
 
-/// Looks at a row from the left, with the right halves of wide characters told apart.
-fn looks(buffer: &Buffer, y: u16, limits: Limits) -> impl Iterator<Item = Look<'_>> {
-    let mut covered = 0;
-    let area = buffer.area;
-    (area.left()..area.right()).map(move |x| {
-        if covered > 0 {
-            covered -= 1;
-            return Look::Covered;
+/// All that a frame needs to work in, kept from frame to frame.
+#[derive(Debug, Default)]
+struct Room {
+    /// The changed cells of rows with wide characters, and of the others, from the top left on.
+    wide: Vec<Stretch>,
+    plain: Vec<Stretch>,
+    passes: Passes,
+    by_row: Vec<u8>,
+    by_ink: Vec<u8>,
+}
+
+impl Room {
+    /// Finds what differs between two buffers of one size, and the rows with wide characters.
+    fn find_stretches(
+        &mut self,
+        shown: &Buffer,
+        next: &Buffer,
+        limits: Limits,
+        wide_rows: &mut Vec<bool>,
+    ) {
+        self.wide.clear();
+        self.plain.clear();
+        wide_rows.clear();
+        let columns = usize::from(next.area.width).max(1);
+        let rows = shown
+            .content
+            .chunks(columns)
+            .zip(next.content.chunks(columns));
+        for (y, (before, after)) in (next.area.top()..).zip(rows) {
+            let start = self.plain.len();
+            let is_wide = before != after
+                && find_in_row((before, after), (next.area.x, y), limits, &mut self.plain);
+            if is_wide {
+                self.wide.extend(self.plain.drain(start..));
+            }
+            wide_rows.push(is_wide);
         }
-        let look = Look::of(&buffer[(x, y)], limits);
-        if let Look::Text { symbol, .. } = look {
-            covered = symbol.width().saturating_sub(1);
+    }
+
+    /// Writes all that changed, in the cheaper of two orders: row by row, or ink by ink. The pen after it.
+    fn paint(&mut self, mut pen: Pen, page: Page, out: &mut Vec<u8>) -> Pen {
+        // Of two halves of a wide character none is written without the other.
+        for stretch in &self.wide {
+            pen.paint(stretch, page, out);
         }
-        look
-    })
+        self.by_row.clear();
+        let mut after_rows = pen;
+        for stretch in &self.plain {
+            after_rows.paint(stretch, page, &mut self.by_row);
+        }
+        self.by_ink.clear();
+        let mut after_passes = pen;
+        self.passes.sort(&mut self.plain, pen.ink);
+        for &i in &self.passes.order {
+            after_passes.paint(&self.plain[i as usize], page, &mut self.by_ink);
+        }
+        if self.by_ink.len() < self.by_row.len() {
+            out.extend_from_slice(&self.by_ink);
+            after_passes
+        } else {
+            out.extend_from_slice(&self.by_row);
+            after_rows
+        }
+    }
 }
 
-/// Changed cells beside each other that one ink can write.
-#[derive(Debug, Clone, Copy)]
-struct Stretch {
-    /// Index of the row.
-    row: usize,
-    /// The first column, and the one after the last.
-    from: usize,
-    to: usize,
-    want: Want,
+/// Finds the stretches of a row; whether it has or had wide characters.
+fn find_in_row(
+    (before, after): (&[Cell], &[Cell]),
+    (left, y): (u16, u16),
+    limits: Limits,
+    out: &mut Vec<Stretch>,
+) -> bool {
+    let start = out.len();
+    let mut is_wide = false;
+    // How many columns more the last character covers, as it was and as it is.
+    let [mut covered_before, mut covered] = [0; 2];
+    for (x, (before, after)) in (left..).zip(before.iter().zip(after)) {
+        if covered_before == 0 && covered == 0 && before == after {
+            covered = width(symbol(after, limits)) - 1;
+            covered_before = covered;
+            is_wide |= covered > 0;
+            continue;
+        }
+        let look = |cell, covered: &mut u16| {
+            if *covered > 0 {
+                *covered -= 1;
+                return Look::Covered;
+            }
+            *covered = width(symbol(cell, limits)) - 1;
+            Look::of(cell, limits)
+        };
+        let (before, after) = (look(before, &mut covered_before), look(after, &mut covered));
+        is_wide |= covered_before > 0 || covered > 0;
+        let Some((symbol, want)) = after.written().filter(|_| before != after) else {
+            continue;
+        };
+        let to = x + width(symbol);
+        let last = out[start..].last_mut().filter(|last| last.to == x);
+        match last.and_then(|last| Some((last.want.and(want)?, last))) {
+            Some((both, last)) => (last.to, last.want) = (to, both),
+            None => out.push(Stretch {
+                y,
+                from: x,
+                to,
+                want,
+                pass: 0,
+            }),
+        }
+    }
+    is_wide
 }
 
-/// The changed cells of all rows in stretches, from the top left on.
-fn stretches(rows: &[Row<'_>]) -> Vec<Stretch> {
-    let mut out: Vec<Stretch> = Vec::new();
-    for (row, looks) in rows.iter().enumerate() {
-        let pairs = looks.before.iter().zip(&looks.after).enumerate();
-        for (x, (_, look)) in pairs.filter(|(_, (before, after))| before != after) {
-            let Some((symbol, want)) = look.written() else {
+/// The inks of a frame, and the order of its stretches ink by ink.
+#[derive(Debug, Default)]
+struct Passes {
+    /// What the stretches of a pass want, and how many these are.
+    inks: Vec<(Want, u32)>,
+    places: HashMap<Want, u32, BuildHasherDefault<WantHasher>>,
+    /// The passes in the order in which they are written, then where each begins.
+    turns: Vec<u32>,
+    starts: Vec<u32>,
+    /// The stretches in that order.
+    order: Vec<u32>,
+}
+
+impl Passes {
+    /// Puts the stretches in the order of their inks, those of an ink from the top left on.
+    fn sort(&mut self, stretches: &mut [Stretch], ink: Ink) {
+        self.find(stretches);
+        for row in stretches.chunk_by_mut(|one, other| one.y == other.y) {
+            self.place_others(row);
+        }
+        self.take_turns(ink);
+        self.starts.clear();
+        self.starts.resize(self.inks.len(), 0);
+        let mut start = 0;
+        for &pass in &self.turns {
+            self.starts[pass as usize] = start;
+            start += self.inks[pass as usize].1;
+        }
+        self.order.clear();
+        self.order.resize(stretches.len(), 0);
+        for (i, stretch) in (0..).zip(stretches.iter()) {
+            let start = &mut self.starts[stretch.pass as usize];
+            self.order[*start as usize] = i;
+            *start += 1;
+        }
+    }
+
+    /// Finds the passes of the stretches that only one ink suits.
+    fn find(&mut self, stretches: &mut [Stretch]) {
+        self.inks.clear();
+        self.places.clear();
+        for stretch in stretches.iter_mut().filter(|s| s.want.is_settled()) {
+            let new = self.inks.len() as u32;
+            stretch.pass = *self.places.entry(stretch.want).or_insert(new);
+            if stretch.pass == new {
+                self.inks.push((stretch.want, 0));
+            }
+            self.inks[stretch.pass as usize].1 += 1;
+        }
+    }
+
+    /// Gives what several inks can write to the nearest that can in its row, else to any.
+    fn place_others(&mut self, row: &mut [Stretch]) {
+        for i in 0..row.len() {
+            let stretch = row[i];
+            if stretch.want.is_settled() {
                 continue;
-            };
-            let to = x + symbol.width().max(1);
-            let last = out
-                .last_mut()
-                .filter(|last| last.row == row && last.to == x);
-            match last.and_then(|last| Some((last.want.and(want)?, last))) {
-                Some((both, last)) => (last.to, last.want) = (to, both),
-                None => out.push(Stretch {
-                    row,
-                    from: x,
-                    to,
-                    want,
-                }),
             }
+            let fits = |want: Want| want.and(stretch.want).is_some();
+            let is_one = |s: &&Stretch| s.want.is_settled() && fits(s.want);
+            let before = row[..i].iter().rev().find(is_one);
+            let after = row[i + 1..].iter().find(is_one);
+            let gap_before = before.map_or(u16::MAX, |s| stretch.from - s.to);
+            let gap_after = after.map_or(u16::MAX, |s| s.from - stretch.to);
+            let beside = if gap_before <= gap_after {
+                before
+            } else {
+                after
+            };
+            let any = || self.inks.iter().position(|&(want, _)| fits(want));
+            let place = beside.map(|s| s.pass).or_else(|| any().map(|i| i as u32));
+            let pass = place.unwrap_or(self.inks.len() as u32);
+            if pass as usize == self.inks.len() {
+                self.inks.push((stretch.want, 0));
+            }
+            self.inks[pass as usize].1 += 1;
+            row[i].pass = pass;
         }
     }
-    out
+
+    /// From ink to ink, each time to one that has most in common with the last.
+    fn take_turns(&mut self, mut ink: Ink) {
+        self.turns.clear();
+        self.turns.extend(0..self.inks.len() as u32);
+        for done in 0..self.turns.len() {
+            let mut best = (u8::MAX, done);
+            for (i, &pass) in self.turns.iter().enumerate().skip(done) {
+                let distance = ink.distance(self.inks[pass as usize].0);
+                best = best.min((distance, i));
+                if distance <= ONE_COLOR {
+                    break;
+                }
+            }
+            self.turns.swap(done, best.1);
+            ink = ink.after(self.inks[self.turns[done] as usize].0);
+        }
+    }
 }
 
-/// The stretches in the order of their inks, those of an ink from the top left on. What several inks
-/// can write goes with the nearest in its row, else with any.
-fn by_ink(stretches: &[Stretch], mut ink: Ink) -> Vec<Stretch> {
-    let mut passes: Vec<(Want, Vec<Stretch>)> = Vec::new();
-    let mut places: HashMap<Want, usize> = HashMap::new();
-    for stretch in stretches.iter().filter(|s| s.want.is_settled()) {
-        let place = *places.entry(stretch.want).or_insert(passes.len());
-        if place == passes.len() {
-            passes.push((stretch.want, Vec::new()));
-        }
-        passes[place].1.push(*stretch);
-    }
-    for row in stretches.chunk_by(|one, other| one.row == other.row) {
-        for stretch in row.iter().filter(|s| !s.want.is_settled()) {
-            let fits = |want: Want| want.and(stretch.want).is_some();
-            let gap = |s: &&Stretch| (s.from.abs_diff(stretch.to)).min(s.to.abs_diff(stretch.from));
-            let beside = row.iter().filter(|s| s.want.is_settled() && fits(s.want));
-            let near = beside.min_by_key(gap).and_then(|s| places.get(&s.want));
-            let any = || passes.iter().position(|&(want, _)| fits(want));
-            match near.copied().or_else(any) {
-                Some(place) => passes[place].1.push(*stretch),
-                None => passes.push((stretch.want, vec![*stretch])),
-            }
+/// Hashes colours and modifiers: a product for each number.
+#[derive(Debug, Default)]
+struct WantHasher(u64);
+
+impl Hasher for WantHasher {
+    fn write(&mut self, bytes: &[u8]) {
+        for &byte in bytes {
+            self.write_u64(byte.into());
         }
     }
-    let mut out = Vec::with_capacity(stretches.len());
-    while let Some(next) = (0..passes.len()).min_by_key(|&i| ink.distance(passes[i].0)) {
-        let (want, mut pass) = passes.swap_remove(next);
-        pass.sort_unstable_by_key(|s| (s.row, s.from));
-        out.extend(pass);
-        ink = ink.after(want);
+
+    fn write_u8(&mut self, n: u8) {
+        self.write_u64(n.into());
     }
-    out
+
+    fn write_u16(&mut self, n: u16) {
+        self.write_u64(n.into());
+    }
+
+    fn write_u32(&mut self, n: u32) {
+        self.write_u64(n.into());
+    }
+
+    fn write_usize(&mut self, n: usize) {
+        self.write_u64(n as u64);
+    }
+
+    fn write_isize(&mut self, n: isize) {
+        self.write_u64(n as u64);
+    }
+
+    fn write_u64(&mut self, n: u64) {
+        self.0 = (self.0.rotate_left(5) ^ n).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    }
+
+    fn finish(&self) -> u64 {
+        self.0 ^ self.0 >> 32
+    }
 }
 
 impl Pen {
-    /// This pen once all that changed is painted, in the cheaper of two orders: row by row, or ink by
-    /// ink.
-    fn shortest(self, rows: &[Row<'_>]) -> Self {
-        let (plain, wide): (Vec<_>, Vec<_>) = stretches(rows).into_iter().partition(|stretch| {
-            let Row { before, after, .. } = &rows[stretch.row];
-            !before
-                .iter()
-                .chain(after)
-                .any(|look| *look == Look::Covered)
-        });
-        let mut start = self;
-        // Of two halves of a wide character none is written without the other.
-        start.paint(&wide, rows);
-        let mut by_row = start.clone();
-        by_row.paint(&plain, rows);
-        let mut by_pass = start;
-        by_pass.paint(&by_ink(&plain, by_pass.ink), rows);
-        if by_pass.out.len() < by_row.out.len() {
-            by_pass
-        } else {
-            by_row
+    /// Paints a stretch.
+    fn paint(&mut self, stretch: &Stretch, page: Page, out: &mut Vec<u8>) {
+        let area = page.buffer.area;
+        self.go(Position::new(stretch.from, stretch.y), Some(page), out);
+        let row = usize::from(stretch.y - area.y) * usize::from(area.width);
+        let mut x = stretch.from;
+        while x < stretch.to.min(area.right()) {
+            let cell = &page.buffer.content[row + usize::from(x - area.x)];
+            let Some((symbol, want)) = Look::of(cell, page.limits).written() else {
+                break;
+            };
+            self.change(want, out);
+            out.extend_from_slice(symbol.as_bytes());
+            x += width(symbol);
         }
+        // At the end the cursor stays on the last column, or is past it: terminals differ.
+        self.at = (x < area.right()).then_some(Position::new(x, stretch.y));
     }
 
-    /// Paints stretches in this order.
-    fn paint(&mut self, stretches: &[Stretch], rows: &[Row<'_>]) {
-        for stretch in stretches {
-            let row = &rows[stretch.row];
-            let end = row.start.x + row.after.len() as u16;
-            self.go(
-                Position::new(row.start.x + stretch.from as u16, row.start.y),
-                &row.after,
-            );
-            for look in &row.after[stretch.from..stretch.to.min(row.after.len())] {
-                self.write(*look);
-            }
-            if self.at.is_some_and(|at| at.x >= end) {
-                // The cursor stays on the last column, or is past it: terminals differ.
-                self.at = None;
-            }
-        }
-    }
-
-    /// Writes a cell.
-    fn write(&mut self, look: Look<'_>) {
-        let Some((symbol, want)) = look.written() else {
-            return;
-        };
-        let change = self.change(want);
-        self.out.extend_from_slice(&change);
-        self.ink = self.ink.after(want);
-        self.out.extend_from_slice(symbol.as_bytes());
-        if let Some(at) = &mut self.at {
-            at.x += symbol.width().max(1) as u16;
-        }
-    }
-
-    /// The sequence that makes the ink what is wanted: by what differs, or from nothing.
-    fn change(&self, want: Want) -> Vec<u8> {
-        if self.ink.suits(want) {
-            return Vec::new();
-        }
+    /// Makes the ink what is wanted: by what differs, or from nothing.
+    fn change(&mut self, want: Want, out: &mut Vec<u8>) {
         let after = self.ink.after(want);
-        let step = select(self.ink, after);
-        let mut anew = select(Ink::default(), after);
-        if !anew.is_empty() {
-            // An empty first parameter is the reset.
-            anew.insert(0, b';');
+        if self.ink == after {
+            return;
         }
-        let shorter = if anew.len() < step.len() { anew } else { step };
-        [b"\x1b[", shorter.as_slice(), b"m"].concat()
+        let mut best = Sequence::default();
+        best.select(self.ink, after);
+        // An empty first parameter is the reset.
+        let mut anew = Sequence::default();
+        if after != Ink::default() {
+            anew.push(b";");
+            anew.select(Ink::default(), after);
+        }
+        if anew.length < best.length {
+            best = anew;
+        }
+        self.ink = after;
+        out.extend_from_slice(b"\x1b[");
+        out.extend_from_slice(best.bytes());
+        out.push(b'm');
     }
 
-    /// Moves to a cell of which `row` holds the looks; what is between may be written again.
-    fn go(&mut self, to: Position, row: &[Look<'_>]) {
+    /// Moves to a cell; what is between may be written again, if it is on this page.
+    fn go(&mut self, to: Position, page: Option<Page>, out: &mut Vec<u8>) {
         if self.at == Some(to) {
             return;
         }
-        let mut best = absolute(to);
+        let mut best = Sequence::default();
+        best.jump(to);
         if let Some(at) = self.at {
-            for way in [relative(at, to), self.again(at, to, row)] {
-                if let Some(way) = way.filter(|w| w.len() < best.len()) {
-                    best = way;
-                }
+            best.keep_shorter(|sequence| sequence.step(at, to));
+            if let Some(page) = page {
+                best.keep_shorter(|sequence| sequence.write_again(self.ink, at, to, page));
             }
         }
-        self.out.extend_from_slice(&best);
+        out.extend_from_slice(best.bytes());
         self.at = Some(to);
+    }
+}
+
+/// Some bytes for the terminal: the parameters of the longest selection fit.
+#[derive(Debug, Clone, Copy)]
+struct Sequence {
+    bytes: [u8; 96],
+    length: usize,
+}
+
+impl Default for Sequence {
+    fn default() -> Self {
+        Self {
+            bytes: [0; 96],
+            length: 0,
+        }
+    }
+}
+
+impl Sequence {
+    fn bytes(&self) -> &[u8] {
+        &self.bytes[..self.length]
+    }
+
+    fn push(&mut self, bytes: &[u8]) {
+        self.bytes[self.length..][..bytes.len()].copy_from_slice(bytes);
+        self.length += bytes.len();
+    }
+
+    fn push_number(&mut self, n: u16) {
+        let digits = n.checked_ilog10().unwrap_or(0) + 1;
+        for i in (0..digits).rev() {
+            self.push(&[b'0' + (n / 10_u16.pow(i) % 10) as u8]);
+        }
+    }
+
+    /// Takes another way to the same if there is one and it is shorter.
+    fn keep_shorter(&mut self, way: impl FnOnce(&mut Self) -> Option<()>) {
+        let mut other = Self::default();
+        if way(&mut other).is_some() && other.length < self.length {
+            *self = other;
+        }
+    }
+
+    fn jump(&mut self, to: Position) {
+        self.push(b"\x1b[");
+        self.push_number(to.y + 1);
+        if to.x > 0 {
+            self.push(b";");
+            self.push_number(to.x + 1);
+        }
+        self.push(b"H");
+    }
+
+    /// Down by line feeds, then along the row; none where neither is a step of that kind.
+    fn step(&mut self, at: Position, to: Position) -> Option<()> {
+        let down = to.y.checked_sub(at.y).filter(|&n| n < 8)?;
+        self.push(&b"\n\n\n\n\n\n\n\n"[..down.into()]);
+        let mut along = Self::default();
+        if to.x >= at.x {
+            along.steps(to.x - at.x, b'C');
+        } else {
+            let back = at.x - to.x;
+            along.steps(back, b'D');
+            along.keep_shorter(|sequence| {
+                sequence.push(b"\r");
+                sequence.steps(to.x, b'C');
+                Some(())
+            });
+            along.keep_shorter(|sequence| {
+                let backspaces: &[u8] = b"\x08\x08\x08\x08";
+                sequence.push(backspaces.get(..back.into())?);
+                Some(())
+            });
+        }
+        self.push(along.bytes());
+        Some(())
+    }
+
+    fn steps(&mut self, n: u16, last: u8) {
+        if n > 0 {
+            self.push(b"\x1b[");
+            if n > 1 {
+                self.push_number(n);
+            }
+            self.push(&[last]);
+        }
     }
 
     /// The cells from here to there once more, if the ink suits them.
-    fn again(&self, at: Position, to: Position, row: &[Look<'_>]) -> Option<Vec<u8>> {
-        if at.y != to.y || at.x > to.x || usize::from(to.x) > row.len() {
+    fn write_again(&mut self, ink: Ink, at: Position, to: Position, page: Page) -> Option<()> {
+        let area = page.buffer.area;
+        let row = usize::from(at.y.checked_sub(area.y)?);
+        let is_near = at.y == to.y && at.x <= to.x && to.x - at.x <= MOST_AGAIN;
+        if !is_near || at.x < area.x || page.wide_rows.get(row).copied()? {
             return None;
         }
-        let mut bytes = Vec::new();
-        for look in &row[usize::from(at.x)..usize::from(to.x)] {
-            let (symbol, _) = look.written().filter(|&(_, want)| self.ink.suits(want))?;
-            bytes.extend_from_slice(symbol.as_bytes());
+        let start = row * usize::from(area.width);
+        let [from, to] = [at.x, to.x].map(|x| start + usize::from(x - area.x));
+        for cell in &page.buffer.content[from..to] {
+            let (symbol, want) = Look::of(cell, page.limits).written()?;
+            if !ink.suits(want) || symbol.len() > LONGEST_AGAIN {
+                return None;
+            }
+            self.push(symbol.as_bytes());
         }
-        Some(bytes)
+        Some(())
     }
 }
 
-fn absolute(to: Position) -> Vec<u8> {
-    let (row, column) = (to.y + 1, to.x + 1);
-    if column == 1 {
-        format!("\x1b[{row}H").into()
-    } else {
-        format!("\x1b[{row};{column}H").into()
+/// A jump takes no more bytes than so many cells.
+const MOST_AGAIN: u16 = 12;
+/// So many bytes of a cell are worth writing again.
+const LONGEST_AGAIN: usize = 8;
+
+impl Sequence {
+    /// The parameters that select `after` where `before` is selected.
+    fn select(&mut self, before: Ink, after: Ink) {
+        let mut had = before.modifier;
+        for (modifiers, off) in [
+            (Modifier::BOLD | Modifier::DIM, 22),
+            (Modifier::ITALIC, 23),
+            (Modifier::UNDERLINED, 24),
+            (Modifier::REVERSED, 27),
+            (Modifier::CROSSED_OUT, 29),
+        ] {
+            if (had - after.modifier).intersects(modifiers) {
+                self.add(off);
+                had -= modifiers;
+            }
+        }
+        for (modifier, on) in [
+            (Modifier::BOLD, 1),
+            (Modifier::DIM, 2),
+            (Modifier::ITALIC, 3),
+            (Modifier::UNDERLINED, 4),
+            (Modifier::REVERSED, 7),
+            (Modifier::CROSSED_OUT, 9),
+        ] {
+            if (after.modifier - had).contains(modifier) {
+                self.add(on);
+            }
+        }
+        if before.fg != after.fg {
+            self.color(after.fg, 30);
+        }
+        if before.bg != after.bg {
+            self.color(after.bg, 40);
+        }
+    }
+
+    /// One more parameter.
+    fn add(&mut self, parameter: u16) {
+        if !matches!(self.bytes(), [] | [.., b';']) {
+            self.push(b";");
+        }
+        self.push_number(parameter);
+    }
+
+    /// The parameters of a colour of the ground that starts at `base`: 30 or 40.
+    fn color(&mut self, color: Color, base: u16) {
+        let named = |color: Color| NAMED.iter().position(|&named| named == color);
+        match color {
+            Color::Reset => self.add(base + 9),
+            Color::Indexed(i @ 0..16) => self.basic(i.into(), base),
+            Color::Indexed(i) => {
+                for parameter in [base + 8, 5, i.into()] {
+                    self.add(parameter);
+                }
+            }
+            Color::Rgb(r, g, b) => {
+                for parameter in [base + 8, 2, r.into(), g.into(), b.into()] {
+                    self.add(parameter);
+                }
+            }
+            color => self.basic(named(color).unwrap_or(0) as u16, base),
+        }
+    }
+
+    fn basic(&mut self, i: u16, base: u16) {
+        self.add(if i < 8 { base + i } else { base + 60 + i - 8 });
     }
 }
 
-/// Down by line feeds, then along the row; none where neither is a step of that kind.
-fn relative(at: Position, to: Position) -> Option<Vec<u8>> {
-    let down = to.y.checked_sub(at.y).filter(|&n| n < 8)?;
-    let mut bytes = vec![b'\n'; down.into()];
-    let steps = |n: u16, last: char| match n {
-        0 => String::new(),
-        1 => format!("\x1b[{last}"),
-        n => format!("\x1b[{n}{last}"),
-    };
-    let along = if to.x >= at.x {
-        steps(to.x - at.x, 'C')
-    } else {
-        let back = at.x - to.x;
-        let by_backspace = "\x08".repeat(back.min(4).into());
-        let by_return = "\r".to_owned() + &steps(to.x, 'C');
-        let mut ways = vec![steps(back, 'D'), by_return];
-        if back <= 4 {
-            ways.push(by_backspace);
-        }
-        ways.into_iter().min_by_key(String::len)?
-    };
-    bytes.extend_from_slice(along.as_bytes());
-    Some(bytes)
-}
-
-/// The parameters that select `after` where `before` is selected.
-fn select(before: Ink, after: Ink) -> Vec<u8> {
-    let mut out = Vec::new();
-    let mut add = |parameter: &str| {
-        if !out.is_empty() {
-            out.push(b';');
-        }
-        out.extend_from_slice(parameter.as_bytes());
-    };
-    let mut had = before.modifier;
-    for (modifiers, off) in [
-        (Modifier::BOLD | Modifier::DIM, "22"),
-        (Modifier::ITALIC, "23"),
-        (Modifier::UNDERLINED, "24"),
-        (Modifier::REVERSED, "27"),
-        (Modifier::CROSSED_OUT, "29"),
-    ] {
-        if (had - after.modifier).intersects(modifiers) {
-            add(off);
-            had -= modifiers;
-        }
-    }
-    for (modifier, on) in [
-        (Modifier::BOLD, "1"),
-        (Modifier::DIM, "2"),
-        (Modifier::ITALIC, "3"),
-        (Modifier::UNDERLINED, "4"),
-        (Modifier::REVERSED, "7"),
-        (Modifier::CROSSED_OUT, "9"),
-    ] {
-        if (after.modifier - had).contains(modifier) {
-            add(on);
-        }
-    }
-    if before.fg != after.fg {
-        add(&color(after.fg, 30));
-    }
-    if before.bg != after.bg {
-        add(&color(after.bg, 40));
-    }
-    out
-}
-
-/// The parameters of a colour of the ground that starts at `base`: 30 or 40.
-fn color(color: Color, base: u8) -> String {
-    let basic = |i: u8| match i {
-        0..8 => (base + i).to_string(),
-        _ => (base + 60 + i - 8).to_string(),
-    };
-    match color {
-        Color::Reset => (base + 9).to_string(),
-        Color::Black => basic(0),
-        Color::Red => basic(1),
-        Color::Green => basic(2),
-        Color::Yellow => basic(3),
-        Color::Blue => basic(4),
-        Color::Magenta => basic(5),
-        Color::Cyan => basic(6),
-        Color::Gray => basic(7),
-        Color::DarkGray => basic(8),
-        Color::LightRed => basic(9),
-        Color::LightGreen => basic(10),
-        Color::LightYellow => basic(11),
-        Color::LightBlue => basic(12),
-        Color::LightMagenta => basic(13),
-        Color::LightCyan => basic(14),
-        Color::White => basic(15),
-        Color::Indexed(i @ 0..16) => basic(i),
-        Color::Indexed(i) => format!("{};5;{i}", base + 8),
-        Color::Rgb(r, g, b) => format!("{};2;{r};{g};{b}", base + 8),
-    }
-}
+/// The sixteen colours that have names, in the order of their numbers.
+const NAMED: [Color; 16] = [
+    Color::Black,
+    Color::Red,
+    Color::Green,
+    Color::Yellow,
+    Color::Blue,
+    Color::Magenta,
+    Color::Cyan,
+    Color::Gray,
+    Color::DarkGray,
+    Color::LightRed,
+    Color::LightGreen,
+    Color::LightYellow,
+    Color::LightBlue,
+    Color::LightMagenta,
+    Color::LightCyan,
+    Color::White,
+];
