@@ -1,5 +1,6 @@
 //! A terminal of 256 colours that nobody looks at: how many bytes a picture takes.
 
+use ratatui::backend::{Backend, CrosstermBackend};
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 use ratatui::style::{Color, Style as CellStyle};
@@ -9,9 +10,12 @@ use crate::render::{AnsiColor, Cell, ColorDepth, Image};
 use crate::scene::Rgb;
 use crate::terminal::{Limits, Painter};
 
-/// What such a terminal shows.
+/// What such a terminal shows, and what one shows that ratatui's own backend writes to.
 #[derive(Default)]
-pub(super) struct UnseenTerminal(Painter);
+pub(super) struct UnseenTerminal {
+    painter: Painter,
+    shown_by_ratatui: Buffer,
+}
 
 impl UnseenTerminal {
     pub const DEPTH: ColorDepth = ColorDepth::Ansi256;
@@ -19,9 +23,22 @@ impl UnseenTerminal {
 
 impl CellOutput for UnseenTerminal {
     fn show(&mut self, image: &Image) -> usize {
-        self.0
+        self.painter
             .paint(&mut buffer_of(image), None, Limits::default())
             .len()
+    }
+
+    fn show_by_ratatui(&mut self, image: &Image) -> usize {
+        let cells = buffer_of(image);
+        let shown = &mut self.shown_by_ratatui;
+        if shown.area != cells.area {
+            *shown = Buffer::empty(cells.area);
+        }
+        let mut bytes = Vec::new();
+        // Writing to memory does not fail.
+        let _ = CrosstermBackend::new(&mut bytes).draw(shown.diff(&cells).into_iter());
+        *shown = cells;
+        bytes.len()
     }
 }
 

@@ -64,6 +64,8 @@ pub fn scene(count: usize, seed: u64) -> Scene {
 pub trait CellOutput {
     /// Compares a picture with what is shown and writes the difference; how many bytes that took.
     fn show(&mut self, image: &Image) -> usize;
+    /// The same by ratatui's own backend, on a screen of its own.
+    fn show_by_ratatui(&mut self, image: &Image) -> usize;
 }
 
 /// What a run is to measure.
@@ -130,6 +132,8 @@ pub struct FrameRow {
     pub covered: u64,
     /// Bytes of a frame, for 256 colours and half blocks.
     pub bytes: usize,
+    /// Those that ratatui's own backend writes for it.
+    pub ratatui_bytes: usize,
 }
 
 /// Where the time of a frame goes, in milliseconds.
@@ -145,6 +149,8 @@ pub struct Parts {
     pub diff: f64,
     /// To write the bytes of those that differ.
     pub encode: f64,
+    /// The same by ratatui's own backend.
+    pub ratatui: f64,
 }
 
 impl FrameRow {
@@ -256,7 +262,8 @@ impl Harness<'_> {
         })?;
         let one_moved = self.time_one_moved(&mut frame)?;
         let (plan_ms, plan) = (median(&with_plan), median(&planning));
-        let [cells, diff, encode, bytes] = self.time_output(&mut frame, output)?;
+        let ([cells, diff, encode, ratatui], [bytes, ratatui_bytes]) =
+            self.time_output(&mut frame, output)?;
         Some(FrameRow {
             spheres: scenes[0].bodies.len(),
             size: rays.size,
@@ -275,9 +282,11 @@ impl Harness<'_> {
                 cells,
                 diff,
                 encode,
+                ratatui,
             },
             covered,
-            bytes: bytes as usize,
+            bytes,
+            ratatui_bytes,
         })
     }
 
@@ -369,8 +378,13 @@ impl Harness<'_> {
         })
     }
 
-    /// Medians of cells, of comparing them and of writing them; and the bytes of a frame.
-    fn time_output(&mut self, frame: &mut Frame, output: &mut dyn CellOutput) -> Option<[f64; 4]> {
+    /// Medians of cells, of comparing them and of writing them, also by ratatui's own backend; and the
+    /// bytes of a frame of either.
+    fn time_output(
+        &mut self,
+        frame: &mut Frame,
+        output: &mut dyn CellOutput,
+    ) -> Option<([f64; 4], [usize; 2])> {
         let look = Look {
             style: Style::Half,
             depth: ColorDepth::Ansi256,
@@ -378,8 +392,8 @@ impl Harness<'_> {
             coarse: false,
         };
         let mut image = Image::new();
-        let mut taken = [const { Vec::new() }; 3];
-        let mut bytes = 0;
+        let mut taken = [const { Vec::new() }; 4];
+        let mut bytes = [0; 2];
         for turn in 0..self.schedule.rounds.min(25) {
             if !(self.go_on)() {
                 return None;
@@ -391,20 +405,25 @@ impl Harness<'_> {
                 milliseconds(self.clock.now().saturating_sub(start))
             };
             let cells = time(&mut || image.draw(frame, &self.scenes[turn % 2], look));
-            let both = time(&mut || bytes = output.show(&image));
+            let both = time(&mut || bytes[0] = output.show(&image));
             // Shown once more the cells are compared, and nothing is written.
             let diff = time(&mut || {
                 output.show(&image);
             });
-            for (taken, ms) in taken.iter_mut().zip([cells, diff, (both - diff).max(0.0)]) {
+            let ratatui_both = time(&mut || bytes[1] = output.show_by_ratatui(&image));
+            let ratatui_diff = time(&mut || {
+                output.show_by_ratatui(&image);
+            });
+            let [encode, ratatui] =
+                [both - diff, ratatui_both - ratatui_diff].map(|ms| ms.max(0.0));
+            for (taken, ms) in taken.iter_mut().zip([cells, diff, encode, ratatui]) {
                 taken.push(ms);
             }
         }
         for taken in &mut taken {
             taken.sort_by(f64::total_cmp);
         }
-        let [cells, diff, encode] = taken.map(|taken| median(&taken));
-        Some([cells, diff, encode, bytes as f64])
+        Some((taken.map(|taken| median(&taken)), bytes))
     }
 }
 
@@ -439,6 +458,10 @@ mod tests {
     impl CellOutput for Nowhere {
         fn show(&mut self, image: &Image) -> usize {
             image.cells.len()
+        }
+
+        fn show_by_ratatui(&mut self, image: &Image) -> usize {
+            2 * image.cells.len()
         }
     }
 

@@ -18,6 +18,9 @@ pub fn text(times: &FrameTimes, machine: &Machine) -> Report {
         .words("where they go, with the plan, up to the bytes for a terminal of 256 colours")
         .table(Table::of(&PARTS, times.rows.iter().copied()).numbers())
         .gap()
+        .words("the bytes, beside those of ratatui's own backend for the same cells")
+        .table(Table::of(&ENCODERS, times.rows.iter().copied()).numbers())
+        .gap()
         .lines(remarks(times))
 }
 
@@ -29,6 +32,8 @@ pub fn markdown(times: &FrameTimes, machine: &Machine) -> Report {
         .table(Table::of(&TIMES, times.rows.iter().copied()).numbers())
         .words("Where they go, with the plan, up to the bytes for a terminal of 256 colours:")
         .table(Table::of(&PARTS, times.rows.iter().copied()).numbers())
+        .words("The bytes, beside those of ratatui's own backend for the same cells:")
+        .table(Table::of(&ENCODERS, times.rows.iter().copied()).numbers())
         .lines(remarks(times))
 }
 
@@ -81,6 +86,15 @@ const PARTS: [DataColumn<FrameRow>; 9] = [
     ("encode", |row| brief(row.parts.encode)),
     ("bytes", |row| row.bytes.to_string()),
     ("covered", |row| row.covered.to_string()),
+];
+
+const ENCODERS: [DataColumn<FrameRow>; 6] = [
+    ("spheres", |row| row.spheres.to_string()),
+    ("pixels", |row| row.size.to_string()),
+    ("encode", |row| brief(row.parts.encode)),
+    ("ratatui", |row| brief(row.parts.ratatui)),
+    ("bytes", |row| row.bytes.to_string()),
+    ("ratatui's", |row| row.ratatui_bytes.to_string()),
 ];
 
 /// How the cost grows, and where the plan does not pay.
@@ -143,6 +157,8 @@ struct FrameJson {
     diff_ms: f64,
     encode_ms: f64,
     bytes: usize,
+    ratatui_ms: f64,
+    ratatui_bytes: usize,
     covered: u64,
     pays: bool,
 }
@@ -164,6 +180,8 @@ impl From<&FrameRow> for FrameJson {
             diff_ms: row.parts.diff,
             encode_ms: row.parts.encode,
             bytes: row.bytes,
+            ratatui_ms: row.parts.ratatui,
+            ratatui_bytes: row.ratatui_bytes,
             covered: row.covered,
             pays: row.pays(),
         }
