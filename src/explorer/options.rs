@@ -24,7 +24,7 @@ pub struct Options {
 /// Why the screen is drawn as it is, in a few words each, for the help page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Reasons {
-    /// Why so many colours.
+    /// Why this many colours.
     pub depth: &'static str,
     /// Why this theme.
     pub palette: &'static str,
@@ -72,6 +72,6 @@ pub enum Request {
     Suspend,
     /// Put this text where the person can paste it from.
     Copy(String),
-    /// Draw all of the screen anew, whatever the terminal shows.
+    /// Draw all of the screen again, whatever the terminal shows.
     Redraw,
 }

@@ -15,6 +15,8 @@ use crate::explorer::mode::form::numbers;
 use crate::explorer::mode::{ExportCase, Mode, export_case};
 use crate::explorer::options::Request;
 use crate::explorer::panel::{Panel, steps};
+use crate::explorer::setting::SETTINGS;
+use crate::explorer::viewpoint::Viewpoint;
 use crate::explorer::walk;
 use crate::explorer::whole::{Explorer, USUAL_SCREEN};
 use crate::method::{Class, Precision};
@@ -356,22 +358,21 @@ impl Explorer {
         let bodies = self.scene().bodies.len();
         facts.add("scene", &self.scene().name);
         facts.add("spheres", &bodies.to_string());
-        facts.add("method", self.state.at.method.name());
-        facts.add("view", self.state.at.view.name());
-        facts.add("style", self.state.at.style.name());
-        facts.add("compared with", self.state.other_method().name());
+        let at = Viewpoint {
+            compare: Some(self.state.other_method()),
+            ..self.state.at
+        };
+        for row in SETTINGS {
+            if let (Some(name), Some(value)) = (row.spoken, row.write(&at)) {
+                facts.add(name, &value);
+            }
+        }
         facts.add("step length", &self.state.work.stride.to_string());
         facts.add("unsaved", if self.is_changed() { "yes" } else { "no" });
-        if let Some(at) = self.state.at.sphere {
-            facts.add("selected sphere", &(at + 1).to_string());
-        }
         for line in numbers(&self.state).lines() {
             if let Some((name, value)) = line.split_once(' ') {
                 facts.add(name, value);
             }
-        }
-        if let Some(t) = self.state.at.t {
-            facts.add("moving point at t", &t.to_string());
         }
         if let Some(reading) = &self.state.picture.reading {
             facts.read(reading, self.state.digits());

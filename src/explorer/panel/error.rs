@@ -84,7 +84,7 @@ impl Drop for Run {
     }
 }
 
-/// Sends news and wakes whoever waits for them; wakes too if a panic leaves nothing to send.
+/// Sends news and wakes the loop that waits for them; wakes too if a panic leaves nothing to send.
 struct NewsSender {
     to: Option<Sender<News>>,
     waker: Waker,
