@@ -609,7 +609,7 @@ impl Chunk<'_> {
             }
             last = Some(sphere);
             let [mut asked, mut hidden] = [false; 2];
-            let rows = self.counts.rows;
+            let (rows, around) = (self.counts.rows, self.counts.around);
             for &part in self.parts {
                 let bounds = bounds.within(part);
                 if bounds.is_empty() {
@@ -631,6 +631,7 @@ impl Chunk<'_> {
             // Parts that lie side by side have rows in common.
             let height = u64::from(question.field.size().height);
             self.counts.rows = self.counts.rows.min(rows + height);
+            self.counts.around = self.counts.around.min(around + 1);
             self.counts.asked += u64::from(asked);
             self.counts.hidden += u64::from(hidden & !asked);
         }
