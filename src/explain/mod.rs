@@ -20,8 +20,8 @@ use crate::method::{Class, Coefficients, Method, Place, Solution, Trace};
 use crate::scene::{Body, Scene};
 
 pub use compare::{comparison, measured_bits};
-pub use derivation::{Drawn, Question, Step, derivation};
-pub use figure::{Float, Ink, Landmark, bits, curve, landmarks, slice, turning, work};
+pub use derivation::{Drawn, Step, StepQuestion, derivation};
+pub use figure::{FigureInk, Float, Landmark, bits, curve, landmarks, slice, turning, work};
 pub use number::{Digits, number, vector};
 pub use panel::{Line, Role, Span, fit, lines, plain_text};
 pub use plan::{

@@ -16,7 +16,7 @@ use std::cmp::Ordering;
 
 use glam::Vec3;
 
-use super::{Digits, Ink, Meeting, Reading, Subject, Wrong, number, vector};
+use super::{Digits, FigureInk, Meeting, Reading, Subject, Wrong, number, vector};
 use crate::method::trace::{Measured, error_text};
 use crate::method::{Class, Coefficients, Place, Precision, Solution, Trace};
 use crate::text::{Glyphs, wrap};
@@ -66,7 +66,7 @@ pub enum Role {
     /// Where the person is in a list.
     Current,
     /// A part of a figure.
-    Ink(Ink),
+    Ink(FigureInk),
 }
 
 impl Line {
@@ -334,7 +334,7 @@ fn coefficient_lines(
         format!("{} − {}", both[0], both[1])
     };
     let dot = |n| format!("2·{}", in_brackets(b / 2.0, n));
-    let room = Room {
+    let room = ExpressionRoom {
         chars: width.saturating_sub(SUBSTITUTED + 2),
         glyphs,
     };
@@ -444,12 +444,12 @@ type Expression<'a> = &'a dyn Fn(usize) -> String;
 const MOST_PUT_IN: usize = 7;
 
 /// What an expression has to fit into.
-struct Room {
+struct ExpressionRoom {
     chars: usize,
     glyphs: Glyphs,
 }
 
-impl Room {
+impl ExpressionRoom {
     /// The expression with as many digits as there is room for, at least three; else the shorter one.
     fn widest(&self, expression: Expression<'_>, shorter: Expression<'_>) -> String {
         let fits = |e: &String| self.glyphs.spell(e).chars().count() <= self.chars;

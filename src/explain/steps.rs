@@ -1,6 +1,6 @@
 //! The steps of a derivation as lines of text: one step large, and the list of all.
 
-use super::derivation::{Question, Step};
+use super::derivation::{Step, StepQuestion};
 use super::panel::{EXACTLY, Line, Role, unit_lines};
 use crate::text::{Glyphs, wrap};
 
@@ -71,7 +71,7 @@ fn lead(text: &str) -> &'static str {
 }
 
 /// A question that waits for an answer, and the keys that answer it.
-pub fn question_lines(question: Question, width: usize, glyphs: Glyphs) -> Vec<Line> {
+pub fn question_lines(question: StepQuestion, width: usize, glyphs: Glyphs) -> Vec<Line> {
     let mut out = vec![Line::new(4)];
     let text = glyphs.spell(question.text());
     out.extend(wrapped(&text, width, Role::Label, "", 0));

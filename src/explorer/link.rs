@@ -1,7 +1,7 @@
 //! A view to pass on: the command that reopens it.
 
 use crate::explain::Why;
-use crate::explorer::edit::field::{self, Field};
+use crate::explorer::edit::field::{self, NumberField};
 use crate::explorer::files::place::FilePlace;
 use crate::explorer::options::{Options, Request};
 use crate::explorer::panel::Panel;
@@ -107,12 +107,14 @@ fn way_back(
 /// The numbers of camera and selected sphere that are other ones than in `base`, as `KEY=VALUE`.
 fn numbers_since(state: &State, base: &Scene) -> Result<Vec<String>, String> {
     let (now, sphere) = (state.scene(), state.at.sphere);
-    let values = Field::of(now, sphere).into_iter().filter_map(|field| {
-        let value = field.get(now, sphere)?;
-        let old = field.get(base, sphere);
-        let same = old.is_some_and(|old| old.to_bits() == value.to_bits());
-        (!same).then_some((field, value))
-    });
+    let values = NumberField::of(now, sphere)
+        .into_iter()
+        .filter_map(|field| {
+            let value = field.get(now, sphere)?;
+            let old = field.get(base, sphere);
+            let same = old.is_some_and(|old| old.to_bits() == value.to_bits());
+            (!same).then_some((field, value))
+        });
     let values: Vec<_> = values.collect();
     match field::set_all(base, sphere, &values) {
         Ok(scene) if scene == *now => Ok(values

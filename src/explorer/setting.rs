@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
 use crate::explorer::draw::theme::Palette;
-use crate::explorer::edit::field::{Field, parse_number};
+use crate::explorer::edit::field::{NumberField, parse_number};
 use crate::explorer::panel::Panel;
 use crate::explorer::viewpoint::Viewpoint;
 use crate::method::Method;
@@ -48,7 +48,7 @@ pub enum Setting {
     /// The sphere that the panel shows, from 1.
     Shown(usize),
     /// A number of the selected sphere or the camera.
-    Set(Field, f32),
+    Set(NumberField, f32),
     /// By how much a key moves a sphere.
     Stride(f32),
 }
@@ -227,7 +227,7 @@ pub const SETTINGS: &[SettingRow] = &[
             "A number of the selected sphere or the camera, as after `:set`; may be repeated",
         )),
         spoken: None,
-        choices: Field::all_names,
+        choices: NumberField::all_names,
         parse: number_of_scene,
         write: |_| None,
     },
@@ -371,8 +371,8 @@ fn number_of_scene(text: &str) -> Result<Setting, String> {
     let (key, value) = text
         .split_once(|c: char| c.is_whitespace() || c == '=')
         .ok_or("expected a key and a value")?;
-    let field = Field::by_name(key).ok_or_else(|| {
-        let names = Field::all_names().join(", ");
+    let field = NumberField::by_name(key).ok_or_else(|| {
+        let names = NumberField::all_names().join(", ");
         format!("expected one of {names}")
     })?;
     let value = parse_number(key, value.trim_start_matches(['=', ' ']));

@@ -1,6 +1,6 @@
 //! Walking through the derivation of a pixel: steps, predictions, the moving point.
 
-use crate::explain::{Digits, Landmark, Question, Step, landmarks, number};
+use crate::explain::{Digits, Landmark, Step, StepQuestion, landmarks, number};
 use crate::explorer::key::Key;
 use crate::explorer::panel::Panel;
 use crate::explorer::state::{Prediction, State};
@@ -14,7 +14,7 @@ const HALVES: [[&str; 2]; 4] = [["B", "b"], ["B²", "b²"], ["Δ", "D"], ["√Δ
 
 /// Whether the picture still tells what is to be predicted: whether something is seen.
 pub(crate) fn is_picture_veiled(state: &State) -> bool {
-    let seen = |step: &Step| step.question == Some(Question::Seen);
+    let seen = |step: &Step| step.question == Some(StepQuestion::Seen);
     let last = state.picture.steps.iter().position(seen);
     state.is_predicting()
         && last.is_some_and(|last| {
@@ -104,7 +104,7 @@ pub(crate) fn toggle_prediction(state: &mut State) {
 }
 
 /// The question that waits for an answer.
-pub(crate) fn pending_question(state: &State) -> Option<Question> {
+pub(crate) fn pending_question(state: &State) -> Option<StepQuestion> {
     let shown = state.board || (state.prediction.on && state.at.panel == Panel::Steps);
     state
         .current_step()
@@ -114,13 +114,13 @@ pub(crate) fn pending_question(state: &State) -> Option<Question> {
 
 /// Whether a key could be the answer to some question, if one is on the screen.
 pub(crate) fn could_answer(state: &State, key: Key) -> bool {
-    let answers = |question: &Question| {
+    let answers = |question: &StepQuestion| {
         question
             .answers()
             .iter()
             .any(|(c, _)| Some(*c) == key.typed())
     };
-    (state.prediction.on || state.board) && Question::ALL.iter().any(answers)
+    (state.prediction.on || state.board) && StepQuestion::ALL.iter().any(answers)
 }
 
 /// Takes a key as the answer to the question on the screen; false if it is none.

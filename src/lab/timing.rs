@@ -122,7 +122,7 @@ pub fn routine(method: Method) -> Box<dyn Routine> {
 }
 
 /// The coordinates of vectors, lane by lane.
-type Lanes<'a> = [&'a [f32]; 3];
+type Coordinates<'a> = [&'a [f32]; 3];
 
 /// Problems in arrays, one for each of the ten numbers, in the order of the columns ox … r.
 #[derive(Debug, Clone)]
@@ -137,7 +137,7 @@ impl Arrays {
     }
 
     /// The lanes of a batch.
-    pub fn batch(&self) -> Batch<Lanes<'_>, Lanes<'_>, Lanes<'_>, &[f32]> {
+    pub fn batch(&self) -> Batch<Coordinates<'_>, Coordinates<'_>, Coordinates<'_>, &[f32]> {
         let [ox, oy, oz, dx, dy, dz, cx, cy, cz, r] = self.0.each_ref().map(Vec::as_slice);
         Batch {
             origin: [ox, oy, oz],

@@ -5,7 +5,7 @@
 use super::number::{Input, Scalar};
 use super::q_form::{HalfB, Reduced};
 use super::tape::Traced;
-use super::trace::{Line, Steps};
+use super::trace::{StepText, Steps};
 
 /// The method.
 pub(super) struct Citardauq;
@@ -29,7 +29,7 @@ impl Reduced for Citardauq {
         reduced: Traced<'t, f32>,
     ) {
         steps.scalar(
-            Line {
+            StepText {
                 symbol: "b²",
                 formula: "b·b",
                 template: "{b}²",
@@ -39,7 +39,7 @@ impl Reduced for Citardauq {
             bb,
         );
         steps.scalar(
-            Line {
+            StepText {
                 symbol: "AC",
                 formula: "A·C",
                 template: "{A}·{C}",
@@ -49,7 +49,7 @@ impl Reduced for Citardauq {
             ac,
         );
         steps.scalar(
-            Line {
+            StepText {
                 symbol: "D",
                 formula: "b² − AC",
                 template: "{b²} − {AC}",

@@ -4,7 +4,7 @@
 use super::number::{Input, Scalar};
 use super::q_form::{HalfB, QFormRoots, Reduced, RoundsRoots, root_steps};
 use super::tape::Traced;
-use super::trace::{Line, Steps};
+use super::trace::{StepText, Steps};
 use super::truth::Truth;
 use super::{Class, Solution};
 use crate::geometry::vector::{cross, dot};
@@ -33,7 +33,7 @@ impl Reduced for Double {
         reduced: Traced<'t, f64>,
     ) {
         steps.vector(
-            Line {
+            StepText {
                 symbol: "o×d",
                 formula: "o×d",
                 template: "{o} × {d}",
@@ -43,7 +43,7 @@ impl Reduced for Double {
             cross,
         );
         steps.scalar(
-            Line {
+            StepText {
                 symbol: "‖o×d‖²",
                 formula: "(o×d)·(o×d)",
                 template: "{o×d.x}² + {o×d.y}² + {o×d.z}²",
@@ -53,7 +53,7 @@ impl Reduced for Double {
             kk,
         );
         steps.scalar(
-            Line {
+            StepText {
                 symbol: "A·r²",
                 formula: "A·r²",
                 template: "{A}·{r²}",
@@ -63,7 +63,7 @@ impl Reduced for Double {
             arr,
         );
         steps.scalar(
-            Line {
+            StepText {
                 symbol: "D",
                 formula: "A·r² − ‖o×d‖²",
                 template: "{A·r²} − {‖o×d‖²}",
@@ -83,14 +83,14 @@ impl RoundsRoots for f64 {
 
     fn steps<'t>(steps: &mut Steps<'t>, roots: &QFormRoots<Traced<'t, Self>>, truth: &Truth) {
         root_steps(steps, roots, ["near₆₄", "far₆₄"], truth);
-        let near = Line {
+        let near = StepText {
             symbol: "near",
             formula: "near₆₄ rounded to binary32",
             template: "{near₆₄}",
             code: "Solution::with_roots(class, roots.near as f32, roots.far as f32)",
             why: "The answer is a binary32, as the inputs are.",
         };
-        let far = Line {
+        let far = StepText {
             symbol: "far",
             formula: "far₆₄ rounded to binary32",
             template: "{far₆₄}",

@@ -4,7 +4,7 @@
 use std::fmt;
 
 use super::Precision;
-use super::surd::{Digits, Surd};
+use super::surd::{DecimalDigits, Surd};
 use crate::text::Glyphs;
 
 /// A number as the shortest decimal that reads back as the same number of its precision.
@@ -87,13 +87,13 @@ impl fmt::Display for Shortest {
 /// An exact value in decimal, to at most `count` digits: all of it, or the first of its digits
 /// and an ellipsis.
 pub fn exact(value: &Surd, count: usize, glyphs: Glyphs) -> String {
-    let Digits {
+    let DecimalDigits {
         negative,
         digits,
         exponent,
         exact,
     } = value.digits(count.max(1));
-    let layout = Layout {
+    let layout = DecimalLayout {
         negative,
         digits: &digits,
         exponent,
@@ -142,8 +142,8 @@ impl Scientific {
         str::from_utf8(&self.digits[..self.count]).unwrap_or_default()
     }
 
-    fn layout(&self, glyphs: Glyphs) -> Layout<'_> {
-        Layout {
+    fn layout(&self, glyphs: Glyphs) -> DecimalLayout<'_> {
+        DecimalLayout {
             negative: self.negative,
             digits: self.text(),
             exponent: self.exponent + 1,
@@ -175,7 +175,7 @@ impl fmt::Write for Scientific {
 }
 
 /// Digits ±0.d₁d₂d₃…·10^exponent, the decimal point yet to be placed among them.
-struct Layout<'a> {
+struct DecimalLayout<'a> {
     negative: bool,
     digits: &'a str,
     exponent: i64,
@@ -187,7 +187,7 @@ fn zeros(out: &mut impl fmt::Write, count: i64) -> fmt::Result {
     (0..count).try_for_each(|_| out.write_char('0'))
 }
 
-impl Layout<'_> {
+impl DecimalLayout<'_> {
     fn text(&self) -> String {
         let mut text = String::new();
         // Writing to a `String` cannot fail.

@@ -7,7 +7,7 @@
 
 use super::number::{Input, Scalar};
 use super::tape::{Float, Tape, Traced};
-use super::trace::{Step, Steps};
+use super::trace::{Steps, TraceStep};
 use super::truth::Truth;
 use super::{Class, Coefficients, Solution};
 use crate::geometry::{Ray, Sphere};
@@ -70,7 +70,7 @@ pub(super) fn coefficients<F: Formula>(ray: &Ray, sphere: &Sphere) -> Coefficien
 }
 
 /// The derivation, by the same code over a number that keeps record.
-pub(super) fn steps<F: Formula>(ray: &Ray, sphere: &Sphere, truth: &Truth) -> Vec<Step> {
+pub(super) fn steps<F: Formula>(ray: &Ray, sphere: &Sphere, truth: &Truth) -> Vec<TraceStep> {
     let tape = Tape::default();
     let input = Input::new(ray, sphere, |x| tape.input(F::Float::from(x)));
     let mut steps = Steps::new(&tape, &input);

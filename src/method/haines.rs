@@ -4,7 +4,7 @@
 use super::number::{Input, Scalar};
 use super::q_form::{HalfB, Reduced};
 use super::tape::Traced;
-use super::trace::{Line, Steps};
+use super::trace::{StepText, Steps};
 use crate::geometry::vector::{dot, scale, sub};
 
 /// The method.
@@ -32,7 +32,7 @@ impl Reduced for Haines {
         reduced: Traced<'t, f32>,
     ) {
         steps.scalar(
-            Line {
+            StepText {
                 symbol: "b/A",
                 formula: "b/A",
                 template: "{b} / {A}",
@@ -42,7 +42,7 @@ impl Reduced for Haines {
             foot,
         );
         steps.vector(
-            Line {
+            StepText {
                 symbol: "l",
                 formula: "o − (b/A)d",
                 template: "{o} − {b/A}·{d}",
@@ -52,7 +52,7 @@ impl Reduced for Haines {
             l,
         );
         steps.scalar(
-            Line {
+            StepText {
                 symbol: "‖l‖²",
                 formula: "l·l",
                 template: "{l.x}² + {l.y}² + {l.z}²",
@@ -62,7 +62,7 @@ impl Reduced for Haines {
             ll,
         );
         steps.scalar(
-            Line {
+            StepText {
                 symbol: "r² − ‖l‖²",
                 formula: "r² − ‖l‖²",
                 template: "{r²} − {‖l‖²}",
@@ -72,7 +72,7 @@ impl Reduced for Haines {
             h,
         );
         steps.scalar(
-            Line {
+            StepText {
                 symbol: "D",
                 formula: "A(r² − ‖l‖²)",
                 template: "{A}·{r² − ‖l‖²}",

@@ -4,7 +4,7 @@
 use super::number::{Input, Scalar};
 use super::q_form::{HalfB, Reduced};
 use super::tape::Traced;
-use super::trace::{Line, Steps};
+use super::trace::{StepText, Steps};
 
 /// The method.
 pub(super) struct Kahan;
@@ -29,7 +29,7 @@ impl Reduced for Kahan {
         reduced: Traced<'t, f32>,
     ) {
         steps.scalar(
-            Line {
+            StepText {
                 symbol: "w",
                 formula: "A·C",
                 template: "{A}·{C}",
@@ -39,7 +39,7 @@ impl Reduced for Kahan {
             w,
         );
         steps.scalar(
-            Line {
+            StepText {
                 symbol: "e",
                 formula: "A·C − w, rounded once",
                 template: "{A}·{C} − {w}",
@@ -49,7 +49,7 @@ impl Reduced for Kahan {
             e,
         );
         steps.scalar(
-            Line {
+            StepText {
                 symbol: "f",
                 formula: "b² − w, rounded once",
                 template: "{b}² − {w}",
@@ -59,7 +59,7 @@ impl Reduced for Kahan {
             f,
         );
         steps.scalar(
-            Line {
+            StepText {
                 symbol: "D",
                 formula: "f − e",
                 template: "{f} − {e}",

@@ -23,7 +23,7 @@ pub mod trace;
 mod truth;
 
 pub use dyadic::Dyadic;
-pub use surd::{Digits, Surd};
+pub use surd::{DecimalDigits, Surd};
 pub use trace::Trace;
 pub use truth::{Truth, bits_lost, root_bits_lost, ulp_error};
 
@@ -112,7 +112,7 @@ impl Method {
         Trace::new(self, ray, sphere)
     }
 
-    fn steps(self, ray: &Ray, sphere: &Sphere, truth: &Truth) -> Vec<trace::Step> {
+    fn steps(self, ray: &Ray, sphere: &Sphere, truth: &Truth) -> Vec<trace::TraceStep> {
         match self {
             Self::Textbook => formula::steps::<Textbook>(ray, sphere, truth),
             Self::Citardauq => formula::steps::<Citardauq>(ray, sphere, truth),

@@ -4,7 +4,7 @@
 use super::formula::Formula;
 use super::number::{Input, Scalar};
 use super::tape::{Float, Traced};
-use super::trace::{self, Line, Steps};
+use super::trace::{self, StepText, Steps};
 use super::truth::Truth;
 use super::{Class, Solution};
 use crate::geometry::vector::{dot, sub};
@@ -138,13 +138,13 @@ impl RoundsRoots for f32 {
 }
 
 /// The coefficients, what D is made of, and D.
-pub(super) struct Quantities<T, P> {
+pub(super) struct ReducedQuantities<T, P> {
     k: HalfB<T>,
     parts: P,
     reduced: T,
 }
 
-impl<T: Scalar, P> Quantities<T, P> {
+impl<T: Scalar, P> ReducedQuantities<T, P> {
     #[inline]
     fn roots(&self) -> QFormRoots<T> {
         roots(self.k.a, self.k.b, self.k.c, self.reduced)
@@ -153,13 +153,13 @@ impl<T: Scalar, P> Quantities<T, P> {
 
 impl<M: Reduced> Formula for M {
     type Float = M::Float;
-    type Quantities<T: Scalar> = Quantities<T, M::Parts<T>>;
+    type Quantities<T: Scalar> = ReducedQuantities<T, M::Parts<T>>;
 
     #[inline]
     fn quantities<T: Scalar>(input: &Input<T>) -> Self::Quantities<T> {
         let k = coefficients(input);
         let (parts, reduced) = M::reduced(input, &k);
-        Quantities { k, parts, reduced }
+        ReducedQuantities { k, parts, reduced }
     }
 
     #[inline]
@@ -168,7 +168,9 @@ impl<M: Reduced> Formula for M {
     }
 
     /// B = 2b, Δ = 4D.
-    fn coefficients<T: Scalar>(Quantities { k, reduced, .. }: &Self::Quantities<T>) -> [T; 4] {
+    fn coefficients<T: Scalar>(
+        ReducedQuantities { k, reduced, .. }: &Self::Quantities<T>,
+    ) -> [T; 4] {
         [k.a, T::of(2.0) * k.b, k.c, T::of(4.0) * *reduced]
     }
 
@@ -196,7 +198,7 @@ fn coefficient_steps<'t, F: Float>(steps: &mut Steps<'t>, k: &HalfB<Traced<'t, F
     steps.vector(trace::O, k.o);
     steps.scalar(trace::A, k.a);
     steps.scalar(
-        Line {
+        StepText {
             symbol: "b",
             formula: "d·o",
             template: "{d.x}·{o.x} + {d.y}·{o.y} + {d.z}·{o.z}",
@@ -218,7 +220,7 @@ pub(super) fn root_steps<'t, F: Float>(
     truth: &Truth,
 ) {
     steps.scalar(
-        Line {
+        StepText {
             symbol: "√D",
             formula: "√D",
             template: "√{D}",
@@ -228,7 +230,7 @@ pub(super) fn root_steps<'t, F: Float>(
         roots.root,
     );
     steps.scalar(
-        Line {
+        StepText {
             symbol: "q",
             formula: "−(b + sign(b)√D)",
             template: if roots.b_negative {
@@ -264,7 +266,7 @@ pub(super) fn root_steps<'t, F: Float>(
         (far, roots.far, truth.far()),
     ];
     for (symbol, ((formula, template, why), value, exact)) in names.into_iter().zip(values) {
-        let line = Line {
+        let line = StepText {
             symbol,
             formula,
             template,

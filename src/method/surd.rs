@@ -24,7 +24,7 @@ pub struct Surd {
 
 /// Decimal digits of a number: ±0.d₁d₂d₃…·10^exponent, cut off and not rounded.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Digits {
+pub struct DecimalDigits {
     /// Whether the number is below zero.
     pub negative: bool,
     /// The digits from the first that is not zero, without zeros at the end; empty for zero.
@@ -283,8 +283,8 @@ impl Surd {
     }
 
     /// The first `count` decimal digits.
-    pub fn digits(&self, count: usize) -> Digits {
-        let mut found = Digits {
+    pub fn digits(&self, count: usize) -> DecimalDigits {
+        let mut found = DecimalDigits {
             negative: self.sign() == Ordering::Less,
             digits: String::new(),
             exponent: 0,

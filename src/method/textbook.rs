@@ -4,7 +4,7 @@
 use super::formula::Formula;
 use super::number::{Input, Scalar};
 use super::tape::Traced;
-use super::trace::{self, Line, Steps};
+use super::trace::{self, StepText, Steps};
 use super::truth::Truth;
 use super::{Class, Solution};
 use crate::geometry::vector::{dot, sub};
@@ -13,7 +13,7 @@ use crate::geometry::vector::{dot, sub};
 pub(super) struct Textbook;
 
 /// Every quantity that the formula names, in the order of the mathematics.
-pub(super) struct Quantities<T> {
+pub(super) struct TextbookQuantities<T> {
     o: [T; 3],
     a: T,
     b: T,
@@ -27,8 +27,8 @@ pub(super) struct Quantities<T> {
 
 /// √Δ and the two roots, (−B ± √Δ) / 2A.
 #[inline]
-fn roots<T: Scalar>(quantities: &Quantities<T>) -> [T; 3] {
-    let Quantities {
+fn roots<T: Scalar>(quantities: &TextbookQuantities<T>) -> [T; 3] {
+    let TextbookQuantities {
         a, b, discriminant, ..
     } = *quantities;
     let two = T::of(2.0);
@@ -40,10 +40,10 @@ fn roots<T: Scalar>(quantities: &Quantities<T>) -> [T; 3] {
 
 impl Formula for Textbook {
     type Float = f32;
-    type Quantities<T: Scalar> = Quantities<T>;
+    type Quantities<T: Scalar> = TextbookQuantities<T>;
 
     #[inline]
-    fn quantities<T: Scalar>(input: &Input<T>) -> Quantities<T> {
+    fn quantities<T: Scalar>(input: &Input<T>) -> TextbookQuantities<T> {
         let Input { p0, d, center, r } = *input;
         let [two, four] = [2.0, 4.0].map(T::of);
 
@@ -56,7 +56,7 @@ impl Formula for Textbook {
         let bb = b * b;
         let four_ac = four * a * c;
         let discriminant = bb - four_ac;
-        Quantities {
+        TextbookQuantities {
             o,
             a,
             b,
@@ -70,26 +70,26 @@ impl Formula for Textbook {
     }
 
     #[inline]
-    fn discriminant<T: Scalar>(quantities: &Quantities<T>) -> T {
+    fn discriminant<T: Scalar>(quantities: &TextbookQuantities<T>) -> T {
         quantities.discriminant
     }
 
-    fn coefficients<T: Scalar>(quantities: &Quantities<T>) -> [T; 4] {
-        let Quantities { a, b, c, .. } = *quantities;
+    fn coefficients<T: Scalar>(quantities: &TextbookQuantities<T>) -> [T; 4] {
+        let TextbookQuantities { a, b, c, .. } = *quantities;
         [a, b, c, quantities.discriminant]
     }
 
     #[inline]
-    fn solution(class: Class, quantities: &Quantities<f32>) -> Solution {
+    fn solution(class: Class, quantities: &TextbookQuantities<f32>) -> Solution {
         let [_, near, far] = roots(quantities);
         Solution::with_roots(class, near, far)
     }
 
-    fn steps<'t>(steps: &mut Steps<'t>, quantities: &Quantities<Traced<'t, f32>>) {
+    fn steps<'t>(steps: &mut Steps<'t>, quantities: &TextbookQuantities<Traced<'t, f32>>) {
         steps.vector(trace::O, quantities.o);
         steps.scalar(trace::A, quantities.a);
         steps.scalar(
-            Line {
+            StepText {
                 symbol: "B",
                 formula: "2 d·o",
                 template: "2·({d.x}·{o.x} + {d.y}·{o.y} + {d.z}·{o.z})",
@@ -102,7 +102,7 @@ impl Formula for Textbook {
         steps.scalar(trace::RR, quantities.rr);
         steps.scalar(trace::C, quantities.c);
         steps.scalar(
-            Line {
+            StepText {
                 symbol: "B²",
                 formula: "B·B",
                 template: "{B}²",
@@ -112,7 +112,7 @@ impl Formula for Textbook {
             quantities.bb,
         );
         steps.scalar(
-            Line {
+            StepText {
                 symbol: "4AC",
                 formula: "4·A·C",
                 template: "4·{A}·{C}",
@@ -122,7 +122,7 @@ impl Formula for Textbook {
             quantities.four_ac,
         );
         steps.scalar(
-            Line {
+            StepText {
                 symbol: "Δ",
                 formula: "B² − 4AC",
                 template: "{B²} − {4AC}",
@@ -135,12 +135,12 @@ impl Formula for Textbook {
 
     fn root_steps<'t>(
         steps: &mut Steps<'t>,
-        quantities: &Quantities<Traced<'t, f32>>,
+        quantities: &TextbookQuantities<Traced<'t, f32>>,
         truth: &Truth,
     ) {
         let [root, near, far] = roots(quantities);
         steps.scalar(
-            Line {
+            StepText {
                 symbol: "√Δ",
                 formula: "√Δ",
                 template: "√{Δ}",
@@ -150,7 +150,7 @@ impl Formula for Textbook {
             root,
         );
         steps.root(
-            Line {
+            StepText {
                 symbol: "near",
                 formula: "(−B − √Δ) / 2A",
                 template: "(−{B} − {√Δ}) / (2·{A})",
@@ -161,7 +161,7 @@ impl Formula for Textbook {
             truth.near(),
         );
         steps.root(
-            Line {
+            StepText {
                 symbol: "far",
                 formula: "(−B + √Δ) / 2A",
                 template: "(−{B} + {√Δ}) / (2·{A})",

@@ -10,7 +10,7 @@ mod loss;
 
 use std::fmt;
 
-pub(super) use build::{A, C, Line, O, OO, RR, Steps};
+pub(super) use build::{A, C, O, OO, RR, StepText, Steps};
 pub use loss::{Loss, LossKind};
 
 use super::format::{self, Shortest};
@@ -136,7 +136,7 @@ impl Quantity {
 
 /// One step of a derivation.
 #[derive(Debug, Clone)]
-pub struct Step {
+pub struct TraceStep {
     /// What the result is called: `A`, `Δ`, `near`.
     pub symbol: &'static str,
     /// How it is computed: `B² − 4AC`.
@@ -153,7 +153,7 @@ pub struct Step {
     pub losses: Vec<Loss>,
 }
 
-impl Step {
+impl TraceStep {
     /// The greatest number of bits that one operation of this step lost.
     pub fn bits_lost(&self) -> u32 {
         self.losses.iter().map(Loss::bits).max().unwrap_or(0)
@@ -188,7 +188,7 @@ pub struct Trace {
     /// The larger root, likewise.
     pub far: Option<Measured>,
     /// The steps in the order in which they were done.
-    pub steps: Vec<Step>,
+    pub steps: Vec<TraceStep>,
 }
 
 impl Trace {
@@ -224,13 +224,13 @@ impl Trace {
     }
 
     /// The step of that symbol.
-    pub fn step(&self, symbol: &str) -> Option<&Step> {
+    pub fn step(&self, symbol: &str) -> Option<&TraceStep> {
         self.steps.iter().find(|step| step.symbol == symbol)
     }
 
     /// The first step that lost much; its place in the list.
     pub fn first_heavy_loss(&self) -> Option<usize> {
-        self.steps.iter().position(Step::loses_much)
+        self.steps.iter().position(TraceStep::loses_much)
     }
 
     /// What is wrong with the class, in a sentence; nothing if it is right.

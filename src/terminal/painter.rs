@@ -57,11 +57,11 @@ pub struct Painter {
     lost: bool,
     limits: Limits,
     cursor_visible: bool,
-    pen: Pen,
+    pen: TerminalState,
     out: Vec<u8>,
     /// For each row whether it has or had wide characters.
     wide_rows: Vec<bool>,
-    room: Room,
+    room: Scratch,
 }
 
 impl Default for Painter {
@@ -72,10 +72,10 @@ impl Default for Painter {
             lost: true,
             limits: Limits::default(),
             cursor_visible: true,
-            pen: Pen::default(),
+            pen: TerminalState::default(),
             out: Vec::new(),
             wide_rows: Vec::new(),
-            room: Room::default(),
+            room: Scratch::default(),
         }
     }
 }
@@ -98,11 +98,11 @@ impl Painter {
         if self.lost {
             self.out.extend_from_slice(RESET_AND_CLEAR);
             self.shown = Buffer::empty(next.area);
-            self.pen = Pen::default();
+            self.pen = TerminalState::default();
         }
         self.room
             .find_stretches(&self.shown, next, limits, &mut self.wide_rows);
-        let page = Page {
+        let page = WantedCells {
             buffer: next,
             limits,
             wide_rows: &self.wide_rows,
@@ -132,7 +132,7 @@ impl Painter {
 /// What a cell looks like, or that it is the right half of the character before it. Two that look the same
 /// are the same: what does not show is left at its default.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Look<'a> {
+enum CellLook<'a> {
     /// Characters.
     Text {
         symbol: &'a str,
@@ -144,7 +144,7 @@ enum Look<'a> {
     Covered,
 }
 
-impl<'a> Look<'a> {
+impl<'a> CellLook<'a> {
     fn of(cell: &'a Cell, limits: Limits) -> Self {
         let symbol = symbol(cell, limits);
         let (mut fg, mut bg, mut modifier) = (cell.fg, cell.bg, cell.modifier);
@@ -244,13 +244,13 @@ const ONE_COLOR: u8 = 8;
 
 /// With which colours and modifiers the terminal writes now.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-struct Ink {
+struct TerminalInk {
     fg: Color,
     bg: Color,
     modifier: Modifier,
 }
 
-impl Ink {
+impl TerminalInk {
     fn suits(self, want: Want) -> bool {
         self.after(want) == self
     }
@@ -279,7 +279,7 @@ impl Ink {
 
 /// Changed cells beside each other that one ink can write.
 #[derive(Debug, Clone, Copy)]
-struct Stretch {
+struct CellRun {
     /// The row, its first column, and the one after its last.
     y: u16,
     from: u16,
@@ -291,15 +291,15 @@ struct Stretch {
 
 /// Where and how the terminal writes now.
 #[derive(Debug, Clone, Copy, Default)]
-struct Pen {
+struct TerminalState {
     /// Where the terminal's cursor is, if that is known.
     at: Option<Position>,
-    ink: Ink,
+    ink: TerminalInk,
 }
 
 /// The cells to be shown.
 #[derive(Clone, Copy)]
-struct Page<'a> {
+struct WantedCells<'a> {
     buffer: &'a Buffer,
     limits: Limits,
     /// For each row whether it has or had wide characters.
@@ -308,16 +308,16 @@ struct Page<'a> {
 
 /// All that a frame needs to work in, kept from frame to frame.
 #[derive(Debug, Default)]
-struct Room {
+struct Scratch {
     /// The changed cells of rows with wide characters, and of the others, from the top left on.
-    wide: Vec<Stretch>,
-    plain: Vec<Stretch>,
+    wide: Vec<CellRun>,
+    plain: Vec<CellRun>,
     passes: Passes,
     by_row: Vec<u8>,
     by_ink: Vec<u8>,
 }
 
-impl Room {
+impl Scratch {
     /// Finds what differs between two buffers of one size, and the rows with wide characters.
     fn find_stretches(
         &mut self,
@@ -346,7 +346,12 @@ impl Room {
     }
 
     /// Writes all that changed, in the cheaper of two orders: row by row, or ink by ink. The pen after it.
-    fn paint(&mut self, mut pen: Pen, page: Page, out: &mut Vec<u8>) -> Pen {
+    fn paint(
+        &mut self,
+        mut pen: TerminalState,
+        page: WantedCells,
+        out: &mut Vec<u8>,
+    ) -> TerminalState {
         // Of two halves of a wide character none is written without the other.
         for stretch in &self.wide {
             pen.paint(stretch, page, out);
@@ -377,7 +382,7 @@ fn find_in_row(
     (before, after): (&[Cell], &[Cell]),
     (left, y): (u16, u16),
     limits: Limits,
-    out: &mut Vec<Stretch>,
+    out: &mut Vec<CellRun>,
 ) -> bool {
     let start = out.len();
     let mut is_wide = false;
@@ -393,10 +398,10 @@ fn find_in_row(
         let look = |cell, covered: &mut u16| {
             if *covered > 0 {
                 *covered -= 1;
-                return Look::Covered;
+                return CellLook::Covered;
             }
             *covered = width(symbol(cell, limits)) - 1;
-            Look::of(cell, limits)
+            CellLook::of(cell, limits)
         };
         let (before, after) = (look(before, &mut covered_before), look(after, &mut covered));
         is_wide |= covered_before > 0 || covered > 0;
@@ -407,7 +412,7 @@ fn find_in_row(
         let last = out[start..].last_mut().filter(|last| last.to == x);
         match last.and_then(|last| Some((last.want.and(want)?, last))) {
             Some((both, last)) => (last.to, last.want) = (to, both),
-            None => out.push(Stretch {
+            None => out.push(CellRun {
                 y,
                 from: x,
                 to,
@@ -434,7 +439,7 @@ struct Passes {
 
 impl Passes {
     /// Puts the stretches in the order of their inks, those of an ink from the top left on.
-    fn sort(&mut self, stretches: &mut [Stretch], ink: Ink) {
+    fn sort(&mut self, stretches: &mut [CellRun], ink: TerminalInk) {
         self.find(stretches);
         for row in stretches.chunk_by_mut(|one, other| one.y == other.y) {
             self.place_others(row);
@@ -457,7 +462,7 @@ impl Passes {
     }
 
     /// Finds the passes of the stretches that only one ink suits.
-    fn find(&mut self, stretches: &mut [Stretch]) {
+    fn find(&mut self, stretches: &mut [CellRun]) {
         self.inks.clear();
         self.places.clear();
         for stretch in stretches.iter_mut().filter(|s| s.want.is_settled()) {
@@ -471,14 +476,14 @@ impl Passes {
     }
 
     /// Gives what several inks can write to the nearest that can in its row, else to any.
-    fn place_others(&mut self, row: &mut [Stretch]) {
+    fn place_others(&mut self, row: &mut [CellRun]) {
         for i in 0..row.len() {
             let stretch = row[i];
             if stretch.want.is_settled() {
                 continue;
             }
             let fits = |want: Want| want.and(stretch.want).is_some();
-            let is_one = |s: &&Stretch| s.want.is_settled() && fits(s.want);
+            let is_one = |s: &&CellRun| s.want.is_settled() && fits(s.want);
             let before = row[..i].iter().rev().find(is_one);
             let after = row[i + 1..].iter().find(is_one);
             let gap_before = before.map_or(u16::MAX, |s| stretch.from - s.to);
@@ -500,7 +505,7 @@ impl Passes {
     }
 
     /// From ink to ink, each time to one that has most in common with the last.
-    fn take_turns(&mut self, mut ink: Ink) {
+    fn take_turns(&mut self, mut ink: TerminalInk) {
         self.turns.clear();
         self.turns.extend(0..self.inks.len() as u32);
         for done in 0..self.turns.len() {
@@ -558,16 +563,16 @@ impl Hasher for WantHasher {
     }
 }
 
-impl Pen {
+impl TerminalState {
     /// Paints a stretch.
-    fn paint(&mut self, stretch: &Stretch, page: Page, out: &mut Vec<u8>) {
+    fn paint(&mut self, stretch: &CellRun, page: WantedCells, out: &mut Vec<u8>) {
         let area = page.buffer.area;
         self.go(Position::new(stretch.from, stretch.y), Some(page), out);
         let row = usize::from(stretch.y - area.y) * usize::from(area.width);
         let mut x = stretch.from;
         while x < stretch.to.min(area.right()) {
             let cell = &page.buffer.content[row + usize::from(x - area.x)];
-            let Some((symbol, want)) = Look::of(cell, page.limits).written() else {
+            let Some((symbol, want)) = CellLook::of(cell, page.limits).written() else {
                 break;
             };
             self.change(want, out);
@@ -588,9 +593,9 @@ impl Pen {
         best.select(self.ink, after);
         // An empty first parameter is the reset.
         let mut anew = Sequence::default();
-        if after != Ink::default() {
+        if after != TerminalInk::default() {
             anew.push(b";");
-            anew.select(Ink::default(), after);
+            anew.select(TerminalInk::default(), after);
         }
         if anew.length < best.length {
             best = anew;
@@ -602,7 +607,7 @@ impl Pen {
     }
 
     /// Moves to a cell; what is between may be written again, if it is on this page.
-    fn go(&mut self, to: Position, page: Option<Page>, out: &mut Vec<u8>) {
+    fn go(&mut self, to: Position, page: Option<WantedCells>, out: &mut Vec<u8>) {
         if self.at == Some(to) {
             return;
         }
@@ -706,7 +711,13 @@ impl Sequence {
     }
 
     /// The cells from here to there once more, if the ink suits them.
-    fn write_again(&mut self, ink: Ink, at: Position, to: Position, page: Page) -> Option<()> {
+    fn write_again(
+        &mut self,
+        ink: TerminalInk,
+        at: Position,
+        to: Position,
+        page: WantedCells,
+    ) -> Option<()> {
         let area = page.buffer.area;
         let row = usize::from(at.y.checked_sub(area.y)?);
         let is_near = at.y == to.y && at.x <= to.x && to.x - at.x <= MOST_AGAIN;
@@ -716,7 +727,7 @@ impl Sequence {
         let start = row * usize::from(area.width);
         let [from, to] = [at.x, to.x].map(|x| start + usize::from(x - area.x));
         for cell in &page.buffer.content[from..to] {
-            let (symbol, want) = Look::of(cell, page.limits).written()?;
+            let (symbol, want) = CellLook::of(cell, page.limits).written()?;
             if !ink.suits(want) || symbol.len() > LONGEST_AGAIN {
                 return None;
             }
@@ -733,7 +744,7 @@ const LONGEST_AGAIN: usize = 8;
 
 impl Sequence {
     /// The parameters that select `after` where `before` is selected.
-    fn select(&mut self, before: Ink, after: Ink) {
+    fn select(&mut self, before: TerminalInk, after: TerminalInk) {
         let mut had = before.modifier;
         for (modifiers, off) in [
             (Modifier::BOLD | Modifier::DIM, 22),

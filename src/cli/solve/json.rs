@@ -7,7 +7,7 @@ use serde::{Serialize, Serializer};
 
 use crate::geometry::{Ray, Sphere};
 use crate::method::format::{self};
-use crate::method::trace::{Loss, LossKind, Measured, Step, Trace};
+use crate::method::trace::{Loss, LossKind, Measured, Trace, TraceStep};
 use crate::method::{Class, Place, Precision, Solution, Surd};
 use crate::report;
 use crate::text::Glyphs;
@@ -134,7 +134,7 @@ struct StepOut<'a> {
 }
 
 impl<'a> StepOut<'a> {
-    fn new(step: &'a Step) -> Self {
+    fn new(step: &'a TraceStep) -> Self {
         let parts = step.result.parts();
         Self {
             symbol: step.symbol,

@@ -74,7 +74,7 @@ pub struct Step {
     /// Whether this is the first step that loses much.
     pub first_heavy: bool,
     /// What a student may be asked before the result is shown.
-    pub question: Option<Question>,
+    pub question: Option<StepQuestion>,
     /// The numbers tell the result already.
     pub numbers_tell: bool,
     /// The number whose bits are worth a look.
@@ -83,7 +83,7 @@ pub struct Step {
 
 /// A question that a step answers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Question {
+pub enum StepQuestion {
     /// Is Δ below, equal to or above zero?
     Sign,
     /// How many points have line and sphere in common?
@@ -92,7 +92,7 @@ pub enum Question {
     Seen,
 }
 
-impl Question {
+impl StepQuestion {
     /// All questions.
     pub const ALL: [Self; 3] = [Self::Sign, Self::Count, Self::Seen];
 
@@ -105,7 +105,7 @@ impl Question {
         }
     }
 
-    /// The keys that answer, each with what it says; the right one is at place [`Question::right`].
+    /// The keys that answer, each with what it says; the right one is at place [`StepQuestion::right`].
     pub const fn answers(self) -> [(char, &'static str); 3] {
         match self {
             Self::Sign => [('-', "negative"), ('0', "zero"), ('+', "positive")],
@@ -159,9 +159,9 @@ pub fn derivation(reading: &Reading, scene: &Scene, rays: &Rays, drawn: &Drawn) 
 fn first_of_roots(trace: &Trace) -> usize {
     const ROOTS: [&str; 6] = ["b", "√D", "√Δ", "q", "near₆₄", "near"];
     let steps = &trace.steps;
-    let decides = |step: &trace::Step| is_discriminant(step.symbol, trace.method);
+    let decides = |step: &trace::TraceStep| is_discriminant(step.symbol, trace.method);
     let from = steps.iter().position(decides).unwrap_or(0);
-    let is_for_roots = |step: &trace::Step| ROOTS.contains(&step.symbol);
+    let is_for_roots = |step: &trace::TraceStep| ROOTS.contains(&step.symbol);
     let after = steps[from..].iter().position(is_for_roots);
     after.map_or(steps.len(), |after| from + after)
 }
@@ -228,14 +228,14 @@ impl Step {
 fn quadratic_steps(trace: &Trace) -> Vec<Step> {
     let heavy = trace.first_heavy_loss();
     let glyphs = Glyphs::Unicode;
-    let step = |(at, step): (usize, &trace::Step)| Step {
+    let step = |(at, step): (usize, &trace::TraceStep)| Step {
         numbers: step.numbers.clone(),
         result: step.result.text(glyphs),
         code: step.code.into(),
         exact: exact(&step.result),
         losses: step.losses.iter().map(|l| l.sentence(glyphs)).collect(),
         first_heavy: heavy == Some(at),
-        question: is_discriminant(step.symbol, trace.method).then_some(Question::Sign),
+        question: is_discriminant(step.symbol, trace.method).then_some(StepQuestion::Sign),
         // A later stage of `exact` says what it has settled.
         numbers_tell: step.symbol.contains(", "),
         number: step.result.parts().first().cloned(),

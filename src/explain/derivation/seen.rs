@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::{Drawn, Question, Step, bracketed, exact, n32, n64, v3};
+use super::{Drawn, Step, StepQuestion, bracketed, exact, n32, n64, v3};
 use crate::explain::{Digits, Reading, Sight, Subject, number};
 use crate::method::trace::{Measured, Quantity};
 use crate::method::{Class, Method, Place, Precision, Surd};
@@ -48,7 +48,7 @@ pub(super) fn count_step(subject: &Subject) -> Step {
         numbers: format!("Δ = {}", discriminant.shortest(Glyphs::Unicode)),
         result: result.into(),
         losses: subject.trace.verdict(Glyphs::Unicode).into_iter().collect(),
-        question: Some(Question::Count),
+        question: Some(StepQuestion::Count),
         code: code.into(),
         ..Step::plain(
             "verdict",
@@ -94,7 +94,7 @@ fn seen_step(subject: &Subject) -> Step {
     Step {
         numbers,
         result,
-        question: Some(Question::Seen),
+        question: Some(StepQuestion::Seen),
         code: code.into(),
         ..Step::plain(
             "seen",

@@ -5,7 +5,7 @@
 //! ├──p0──┤~/~/├───────B──B′───────┤
 //! ```
 
-use super::section::{Anchor, Section, Spot};
+use super::section::{Anchor, LinePoint, Section};
 
 /// A stretch of the line that is drawn to scale.
 #[derive(Debug, Clone, Copy)]
@@ -30,7 +30,7 @@ pub(super) struct Axis {
 
 /// Where a place of the line is drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Place {
+pub(super) enum AxisPosition {
     /// At this dot, to scale.
     On(f64),
     /// About at this dot, in a break.
@@ -57,14 +57,14 @@ impl Stretch {
 
 /// The room that a figure has for its shapes, in dots.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Frame {
+pub(super) struct DrawingArea {
     pub left: f64,
     pub right: f64,
     pub top: f64,
     pub bottom: f64,
 }
 
-impl Frame {
+impl DrawingArea {
     pub(super) fn width(self) -> f64 {
         self.right - self.left
     }
@@ -94,7 +94,7 @@ impl Frame {
 impl Axis {
     /// `main` in the middle of the frame, and breaks to a place before and to a place after it.
     pub(super) fn lay(
-        frame: Frame,
+        frame: DrawingArea,
         before: Option<Anchor>,
         main: Stretch,
         after: Option<Anchor>,
@@ -126,7 +126,7 @@ impl Axis {
     }
 
     /// The dot of a place, counted on beyond the edges of a piece.
-    pub(super) fn dot(&self, piece: &Piece, section: &Section, spot: Spot) -> f64 {
+    pub(super) fn dot(&self, piece: &Piece, section: &Section, spot: LinePoint) -> f64 {
         self.dot_at(piece, section.offset(spot, piece.anchor))
     }
 
@@ -141,26 +141,26 @@ impl Axis {
     }
 
     /// Where a place is drawn.
-    pub(super) fn place(&self, section: &Section, spot: Spot) -> Place {
+    pub(super) fn place(&self, section: &Section, spot: LinePoint) -> AxisPosition {
         let mut passed: Option<&Piece> = None;
         for piece in &self.pieces {
             let dot = self.dot(piece, section, spot);
             if dot < piece.left - EDGE {
                 let Some(before) = passed else {
-                    return Place::Before;
+                    return AxisPosition::Before;
                 };
-                return Place::Break(self.in_break(before, piece, section, spot));
+                return AxisPosition::Break(self.in_break(before, piece, section, spot));
             }
             if dot <= piece.right + EDGE {
-                return Place::On(dot);
+                return AxisPosition::On(dot);
             }
             passed = Some(piece);
         }
-        Place::After
+        AxisPosition::After
     }
 
     /// In proportion between the pieces on both sides of a break.
-    fn in_break(&self, before: &Piece, after: &Piece, section: &Section, spot: Spot) -> f64 {
+    fn in_break(&self, before: &Piece, after: &Piece, section: &Section, spot: LinePoint) -> f64 {
         let (from, to) = self.break_ends(before, after, section);
         let part = (section.position(spot) - from) / (to - from);
         let part = if part.is_nan() {
@@ -172,13 +172,14 @@ impl Axis {
     }
 
     fn break_ends(&self, before: &Piece, after: &Piece, section: &Section) -> (f64, f64) {
-        let at =
-            |piece: &Piece, dot| section.position(Spot::At(piece.anchor)) + self.offset(piece, dot);
+        let at = |piece: &Piece, dot| {
+            section.position(LinePoint::At(piece.anchor)) + self.offset(piece, dot)
+        };
         (at(before, before.right), at(after, after.left))
     }
 
     /// The piece that a place lies on, and its dot.
-    pub(super) fn on(&self, section: &Section, spot: Spot) -> Option<(Piece, f64)> {
+    pub(super) fn on(&self, section: &Section, spot: LinePoint) -> Option<(Piece, f64)> {
         let inside = |piece: &Piece| {
             let dot = self.dot(piece, section, spot);
             let on = (piece.left - EDGE..=piece.right + EDGE).contains(&dot);

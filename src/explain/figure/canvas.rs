@@ -8,7 +8,7 @@ use crate::text::Glyphs;
 
 /// What a mark in a figure stands for. Of two that share a cell, the later one in this list shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Ink {
+pub enum FigureInk {
     /// Axes, and lines that only help.
     Axis,
     /// The line through the methods that no other beats.
@@ -37,7 +37,7 @@ pub enum Ink {
     Scrub,
 }
 
-impl Ink {
+impl FigureInk {
     /// The character that draws it where there are no dots.
     const fn ascii(self) -> char {
         match self {
@@ -73,10 +73,10 @@ impl Dash {
 }
 
 #[derive(Debug, Clone, Copy, Default)]
-struct Cell {
+struct CanvasCell {
     dots: u8,
-    ink: Option<Ink>,
-    text: Option<(char, Ink)>,
+    ink: Option<FigureInk>,
+    text: Option<(char, FigureInk)>,
 }
 
 /// The sheet.
@@ -85,7 +85,7 @@ pub(super) struct Canvas {
     cols: usize,
     rows: usize,
     glyphs: Glyphs,
-    cells: Vec<Cell>,
+    cells: Vec<CanvasCell>,
 }
 
 /// A point in dots: x to the right, y down.
@@ -97,7 +97,7 @@ impl Canvas {
             cols,
             rows,
             glyphs,
-            cells: vec![Cell::default(); cols * rows],
+            cells: vec![CanvasCell::default(); cols * rows],
         }
     }
 
@@ -125,13 +125,13 @@ impl Canvas {
         inside.then(|| ((x / CELL.0) as usize, (y / CELL.1) as usize))
     }
 
-    fn cell(&self, col: usize, row: usize) -> Option<&Cell> {
+    fn cell(&self, col: usize, row: usize) -> Option<&CanvasCell> {
         (col < self.cols)
             .then(|| self.cells.get(row * self.cols + col))
             .flatten()
     }
 
-    fn cell_mut(&mut self, col: usize, row: usize) -> Option<&mut Cell> {
+    fn cell_mut(&mut self, col: usize, row: usize) -> Option<&mut CanvasCell> {
         if col < self.cols {
             self.cells.get_mut(row * self.cols + col)
         } else {
@@ -140,7 +140,7 @@ impl Canvas {
     }
 
     /// Sets the dot at a point; nothing happens off the sheet.
-    pub(super) fn plot(&mut self, (x, y): Dot, ink: Ink) {
+    pub(super) fn plot(&mut self, (x, y): Dot, ink: FigureInk) {
         let Some((col, row)) = self.cell_of((x, y)) else {
             return;
         };
@@ -152,7 +152,7 @@ impl Canvas {
     }
 
     /// A straight line, cut at the edges of the sheet.
-    pub(super) fn line(&mut self, from: Dot, to: Dot, ink: Ink, dash: Dash) {
+    pub(super) fn line(&mut self, from: Dot, to: Dot, ink: FigureInk, dash: Dash) {
         let Some((from, to)) = self.clip(from, to) else {
             return;
         };
@@ -210,14 +210,14 @@ impl Canvas {
     }
 
     /// Writes a character over whatever is in the cell.
-    pub(super) fn put(&mut self, col: usize, row: usize, glyph: char, ink: Ink) {
+    pub(super) fn put(&mut self, col: usize, row: usize, glyph: char, ink: FigureInk) {
         if let Some(cell) = self.cell_mut(col, row) {
             cell.text = Some((glyph, ink));
         }
     }
 
     /// Writes text from a cell on, in the characters that are allowed.
-    pub(super) fn write(&mut self, col: usize, row: usize, text: &str, ink: Ink) {
+    pub(super) fn write(&mut self, col: usize, row: usize, text: &str, ink: FigureInk) {
         for (i, glyph) in self.glyphs.spell(text).chars().enumerate() {
             self.put(col + i, row, glyph, ink);
         }
@@ -230,7 +230,7 @@ impl Canvas {
         &mut self,
         (col, row): (usize, usize),
         text: &str,
-        ink: Ink,
+        ink: FigureInk,
         upwards: bool,
     ) -> bool {
         let length = self.glyphs.spell(text).chars().count() as i64;
@@ -278,7 +278,7 @@ impl Canvas {
         &mut self,
         (col, row): (usize, usize),
         text: &str,
-        ink: Ink,
+        ink: FigureInk,
     ) -> bool {
         let length = self.glyphs.spell(text).chars().count() as i64;
         for by in [2, -1 - length] {
@@ -374,7 +374,7 @@ impl Canvas {
         line
     }
 
-    fn glyph_of(&self, dots: u8, ink: Ink) -> char {
+    fn glyph_of(&self, dots: u8, ink: FigureInk) -> char {
         match self.glyphs {
             Glyphs::Ascii => ink.ascii(),
             Glyphs::Unicode => char::from_u32(0x2800 + u32::from(dots)).unwrap_or(' '),

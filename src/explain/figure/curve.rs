@@ -8,11 +8,11 @@
 //!     │       ⠉⠢⠤⠤×⠤⠤⠔⠉
 //! ```
 
-use super::axis::{Axis, Frame, Place, Stretch};
-use super::canvas::{Canvas, Dash, Ink};
+use super::axis::{Axis, AxisPosition, DrawingArea, Stretch};
+use super::canvas::{Canvas, Dash, FigureInk};
 use super::caption::{Caption, caption_of, caption_room, rounded, show, times};
 use super::mark::{Mark, Sign};
-use super::section::{Anchor, Section, Spot};
+use super::section::{Anchor, LinePoint, Section};
 use crate::explain::{Line, Role, Subject};
 use crate::geometry::Ray;
 use crate::method::Class;
@@ -35,8 +35,8 @@ pub fn curve(
     let caption = caption(&section, subject, t, glyphs);
     let caption = caption.lines(cols, caption_room(cols, rows));
     let canvas = Canvas::new(cols, rows.saturating_sub(caption.len()), glyphs);
-    let view = View::of(&section, &canvas);
-    let plot = Plot {
+    let view = CurveView::of(&section, &canvas);
+    let plot = CurvePlot {
         canvas,
         view,
         section,
@@ -51,7 +51,7 @@ pub fn curve(
 ///
 /// t is measured along the line, in lengths s = t·|d|; then f = s² + … has no factor A.
 #[derive(Debug, Clone)]
-struct View {
+struct CurveView {
     axis: Axis,
     /// Height of f = 0, in dots from the top.
     base: f64,
@@ -59,7 +59,7 @@ struct View {
     up: f64,
 }
 
-impl View {
+impl CurveView {
     fn of(section: &Section, canvas: &Canvas) -> Self {
         let frame = frame(canvas);
         let whole = Self::around_vertex(section, frame);
@@ -70,7 +70,7 @@ impl View {
     }
 
     /// Both roots and the vertex, and t = 0: beyond a break if it is far.
-    fn around_vertex(section: &Section, frame: Frame) -> Self {
+    fn around_vertex(section: &Section, frame: DrawingArea) -> Self {
         let start = -section.foot;
         let reach = [section.half, start.abs(), section.radius, section.speed]
             .into_iter()
@@ -113,9 +113,9 @@ impl View {
     }
 
     /// t = 0 and the root nearest to it, the other root beyond a break.
-    fn around_start(section: &Section, frame: Frame) -> Option<Self> {
+    fn around_start(section: &Section, frame: DrawingArea) -> Option<Self> {
         let root = section.nearest_root()?;
-        let start = section.offset(Spot::At(Anchor::Start), root);
+        let start = section.offset(LinePoint::At(Anchor::Start), root);
         let around = start.abs();
         let stretch = Stretch {
             anchor: root,
@@ -134,7 +134,7 @@ impl View {
         Some(Self::upright(frame, axis, bottom, top))
     }
 
-    fn upright(frame: Frame, axis: Axis, bottom: f64, top: f64) -> Self {
+    fn upright(frame: DrawingArea, axis: Axis, bottom: f64, top: f64) -> Self {
         let up = frame.height() / (top - bottom);
         Self {
             axis,
@@ -144,17 +144,17 @@ impl View {
     }
 
     /// Whether t = 0 and the roots are seen apart where they are.
-    fn tells_apart(&self, section: &Section, frame: Frame) -> bool {
+    fn tells_apart(&self, section: &Section, frame: DrawingArea) -> bool {
         let apart = 5.0_f64.min(frame.width() / 8.0);
-        let start = self.axis.place(section, Spot::At(Anchor::Start));
-        let clear = |root| match (start, self.axis.place(section, Spot::At(root))) {
-            (Place::On(start), Place::On(dot)) => (dot - start).abs() >= apart,
+        let start = self.axis.place(section, LinePoint::At(Anchor::Start));
+        let clear = |root| match (start, self.axis.place(section, LinePoint::At(root))) {
+            (AxisPosition::On(start), AxisPosition::On(dot)) => (dot - start).abs() >= apart,
             _ => true,
         };
         !section.class.meets()
             || [Anchor::Near, Anchor::Far]
                 .into_iter()
-                .all(|root| section.position(Spot::At(root)) == 0.0 || clear(root))
+                .all(|root| section.position(LinePoint::At(root)) == 0.0 || clear(root))
     }
 
     fn height(&self, f: f64) -> f64 {
@@ -163,11 +163,11 @@ impl View {
 }
 
 /// The room for shapes: margins are for labels.
-fn frame(canvas: &Canvas) -> Frame {
+fn frame(canvas: &Canvas) -> DrawingArea {
     let (width, height) = canvas.size();
     let side = (width / 16.0).min(4.0);
     let edge = (height / 8.0).min(5.0);
-    Frame {
+    DrawingArea {
         left: side,
         right: width - side,
         top: edge.min(3.0),
@@ -176,13 +176,13 @@ fn frame(canvas: &Canvas) -> Frame {
 }
 
 /// What the curve is drawn with.
-struct Plot {
+struct CurvePlot {
     canvas: Canvas,
-    view: View,
+    view: CurveView,
     section: Section,
 }
 
-impl Plot {
+impl CurvePlot {
     fn draw(mut self, t: f64) -> Canvas {
         self.axes();
         self.curve();
@@ -192,9 +192,9 @@ impl Plot {
         self.canvas
     }
 
-    fn place(&self, spot: Spot) -> Option<f64> {
+    fn place(&self, spot: LinePoint) -> Option<f64> {
         match self.view.axis.place(&self.section, spot) {
-            Place::On(dot) => Some(dot),
+            AxisPosition::On(dot) => Some(dot),
             _ => None,
         }
     }
@@ -203,22 +203,22 @@ impl Plot {
         let (width, height) = self.canvas.size();
         let base = self.view.base;
         self.canvas
-            .line((0.0, base), (width, base), Ink::Axis, Dash::DOTTED);
-        if let Some(start) = self.place(Spot::At(Anchor::Start)) {
+            .line((0.0, base), (width, base), FigureInk::Axis, Dash::DOTTED);
+        if let Some(start) = self.place(LinePoint::At(Anchor::Start)) {
             self.canvas
-                .line((start, 0.0), (start, height), Ink::Axis, Dash::DOTTED);
+                .line((start, 0.0), (start, height), FigureInk::Axis, Dash::DOTTED);
         }
         for (before, after) in self.view.axis.breaks() {
             let middle = f64::midpoint(before.right, after.left);
             let room = after.left - before.right;
-            self.canvas.zigzag((middle, base), room, Ink::Axis);
+            self.canvas.zigzag((middle, base), room, FigureInk::Axis);
         }
     }
 
     /// f, dotted for t < 0; steep parts are filled in between columns.
     fn curve(&mut self) {
         for (piece, left, right) in self.view.axis.drawn(self.canvas.size().0) {
-            let origin = self.section.position(Spot::At(piece.anchor));
+            let origin = self.section.position(LinePoint::At(piece.anchor));
             let step = self.canvas.grain().0;
             let mut previous = None;
             let mut x = left + step / 2.0;
@@ -227,7 +227,11 @@ impl Plot {
                 let offset = self.view.axis.offset(&piece, x);
                 let y = self.view.height(self.section.power(piece.anchor, offset));
                 let behind = origin + offset < 0.0;
-                let ink = if behind { Ink::Behind } else { Ink::Curve };
+                let ink = if behind {
+                    FigureInk::Behind
+                } else {
+                    FigureInk::Curve
+                };
                 if !behind || Dash::DOTTED.draws(count) {
                     self.column(x, previous.unwrap_or(y), y, ink);
                 }
@@ -239,7 +243,7 @@ impl Plot {
     }
 
     /// The curve between two columns: half of the rise on either side.
-    fn column(&mut self, x: f64, from: f64, to: f64, ink: Ink) {
+    fn column(&mut self, x: f64, from: f64, to: f64, ink: FigureInk) {
         let step = self.canvas.grain();
         if (to - from).abs() <= step.1 {
             self.canvas.plot((x, to), ink);
@@ -264,11 +268,11 @@ impl Plot {
             };
             let y = self.view.height(f);
             let (x, sign) = match self.view.axis.place(section, spot) {
-                Place::Before => (0.0, Sign::Before),
-                Place::After => (right, Sign::After),
-                Place::On(x) | Place::Break(x) if y < 0.0 => (x, Sign::Above),
-                Place::On(x) | Place::Break(x) if y > bottom => (x, Sign::Below),
-                Place::On(x) | Place::Break(x) => (x, sign),
+                AxisPosition::Before => (0.0, Sign::Before),
+                AxisPosition::After => (right, Sign::After),
+                AxisPosition::On(x) | AxisPosition::Break(x) if y < 0.0 => (x, Sign::Above),
+                AxisPosition::On(x) | AxisPosition::Break(x) if y > bottom => (x, Sign::Below),
+                AxisPosition::On(x) | AxisPosition::Break(x) => (x, sign),
             };
             Mark {
                 name,
@@ -281,9 +285,9 @@ impl Plot {
         let root = |name, anchor| {
             let seen = section.visible() == Some(anchor);
             let sign = if seen { Sign::Seen } else { Sign::Unseen };
-            mark(name, Spot::At(anchor), sign, Ink::Root)
+            mark(name, LinePoint::At(anchor), sign, FigureInk::Root)
         };
-        let point = |name, anchor, sign| mark(name, Spot::At(anchor), sign, Ink::Point);
+        let point = |name, anchor, sign| mark(name, LinePoint::At(anchor), sign, FigureInk::Point);
         let mut marks = vec![point("C", Anchor::Start, Sign::Eye)];
         match section.class {
             Class::Secant => marks.extend([
@@ -296,7 +300,7 @@ impl Plot {
         }
         if t.is_finite() {
             let along = section.spot(t);
-            marks.push(mark("p", along, Sign::Moved, Ink::Scrub));
+            marks.push(mark("p", along, Sign::Moved, FigureInk::Scrub));
         }
         marks
     }
@@ -306,12 +310,12 @@ impl Plot {
         let base = self.view.base;
         let (width, _) = self.canvas.size();
         if let Some((col, row)) = self.canvas.cell_of((width - 1.0, base)) {
-            self.canvas.write(col, row, "▸", Ink::Axis);
-            self.canvas.label((col, row), "t", Ink::Note, true);
+            self.canvas.write(col, row, "▸", FigureInk::Axis);
+            self.canvas.label((col, row), "t", FigureInk::Note, true);
         }
-        let start = self.place(Spot::At(Anchor::Start));
+        let start = self.place(LinePoint::At(Anchor::Start));
         if let Some((col, row)) = start.and_then(|x| self.canvas.cell_of((x, 0.0))) {
-            self.canvas.label((col, row), "f", Ink::Note, true);
+            self.canvas.label((col, row), "f", FigureInk::Note, true);
         }
         let [near, _, far] = times(&self.section);
         let mut ticks = match self.section.class {
@@ -323,24 +327,24 @@ impl Plot {
             ticks.push((Anchor::Start, "0".into()));
         }
         for (anchor, text) in ticks {
-            let x = self.place(Spot::At(anchor));
+            let x = self.place(LinePoint::At(anchor));
             let cell = x.and_then(|x| self.canvas.cell_of((x, base)));
             // A number that is longer would stand far from its point: the caption has it.
             if let (Some(cell), true) = (cell, text.chars().count() <= 10) {
-                self.canvas.label(cell, &text, Ink::Note, false);
+                self.canvas.label(cell, &text, FigureInk::Note, false);
             }
         }
         if width < WIDE {
             return;
         }
-        let [start, foot] = [Anchor::Start, Anchor::Foot].map(|a| self.place(Spot::At(a)));
+        let [start, foot] = [Anchor::Start, Anchor::Foot].map(|a| self.place(LinePoint::At(a)));
         let beside = start.zip(foot).is_some_and(|(x, y)| (x - y).abs() < CLOSE);
         for (x, anchor) in [(start, Anchor::Start), (foot, Anchor::Foot)] {
             let f = self.section.power(anchor, 0.0);
             let cell = x.and_then(|x| self.canvas.cell_of((x, self.view.height(f))));
             if let (Some(cell), false, false) = (cell, f == 0.0, beside) {
                 let text = rounded(f, 4);
-                self.canvas.label(cell, &text, Ink::Note, false);
+                self.canvas.label(cell, &text, FigureInk::Note, false);
             }
         }
     }
@@ -448,11 +452,11 @@ mod tests {
     use crate::explain::figure::cases;
     use proptest::prelude::*;
 
-    fn plot((subject, ray): &(Subject, Ray), cols: usize, rows: usize) -> Plot {
+    fn plot((subject, ray): &(Subject, Ray), cols: usize, rows: usize) -> CurvePlot {
         let section = Section::new(ray, &subject.sphere);
         let canvas = Canvas::new(cols, rows, Glyphs::Unicode);
-        let view = View::of(&section, &canvas);
-        Plot {
+        let view = CurveView::of(&section, &canvas);
+        CurvePlot {
             canvas,
             view,
             section,
@@ -469,7 +473,7 @@ mod tests {
             let plot = plot(&case, cols, rows);
             for mark in plot.marks(f64::NAN) {
                 let f = plot.section.power(Anchor::Foot, 0.0);
-                if mark.ink == Ink::Root {
+                if mark.ink == FigureInk::Root {
                     prop_assert!((mark.dot.1 - plot.view.base).abs() <= 1.0, "{:?}", mark);
                 } else if mark.name == "V" && mark.sign == Sign::Cross {
                     prop_assert_eq!(mark.at.1, f);

@@ -56,7 +56,7 @@ pub fn landmarks(ray: &Ray, sphere: &Sphere) -> Vec<Landmark> {
 mod tests {
     use super::*;
     use crate::explain::figure::cases;
-    use crate::explain::figure::section::Spot;
+    use crate::explain::figure::section::LinePoint;
     use proptest::prelude::*;
 
     fn of(name: &str) -> Vec<(f64, String)> {
@@ -103,7 +103,7 @@ mod tests {
             let places = landmarks(&ray, &subject.sphere);
             prop_assert!(places.windows(2).all(|p| p[0].t < p[1].t));
             for place in places {
-                let Spot::At(anchor) = section.spot(place.t) else {
+                let LinePoint::At(anchor) = section.spot(place.t) else {
                     return Err(TestCaseError::fail(format!("{place:?}")));
                 };
                 prop_assert_eq!(section.t(anchor), place.t);

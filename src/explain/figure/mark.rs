@@ -1,6 +1,6 @@
 //! Points of a figure with their names.
 
-use super::canvas::{Canvas, Dot, Ink};
+use super::canvas::{Canvas, Dot, FigureInk};
 use crate::text::Glyphs;
 
 /// A named point.
@@ -12,7 +12,7 @@ pub(super) struct Mark {
     /// Where it is, in the figure's own units: along the line, and above it.
     pub at: (f64, f64),
     pub sign: Sign,
-    pub ink: Ink,
+    pub ink: FigureInk,
 }
 
 /// The character that stands on a point.
@@ -105,12 +105,12 @@ impl Canvas {
             let ink = group.iter().map(|mark| mark.ink).max();
             let upwards = group.iter().any(|mark| mark.at.1 >= 0.0);
             let name = joint_name(group);
-            self.label(*cell, &name, ink.unwrap_or(Ink::Point), upwards);
+            self.label(*cell, &name, ink.unwrap_or(FigureInk::Point), upwards);
         }
     }
 
     /// The sign of a break that is so many dots wide, in the cells around its middle.
-    pub(super) fn zigzag(&mut self, middle: Dot, room: f64, ink: Ink) {
+    pub(super) fn zigzag(&mut self, middle: Dot, room: f64, ink: FigureInk) {
         let Some((col, row)) = self.cell_of(middle) else {
             return;
         };

@@ -23,7 +23,7 @@ mod view;
 mod work;
 
 pub use bits::{Float, bits};
-pub use canvas::Ink;
+pub use canvas::FigureInk;
 pub use curve::curve;
 pub use landmark::{Landmark, landmarks};
 pub use slice::slice;

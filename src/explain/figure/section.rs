@@ -30,7 +30,7 @@ pub(super) enum Anchor {
 
 /// A place on the line.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Spot {
+pub(super) enum LinePoint {
     /// One that has a name.
     At(Anchor),
     /// So many lengths from p0, in the direction of d.
@@ -100,7 +100,7 @@ impl Section {
 
     /// The root nearest to p0 but not at it.
     pub(super) fn nearest_root(&self) -> Option<Anchor> {
-        let away = |&root: &Anchor| self.position(Spot::At(root)).abs();
+        let away = |&root: &Anchor| self.position(LinePoint::At(root)).abs();
         [Anchor::Near, Anchor::Far]
             .into_iter()
             .filter(|root| self.class.meets() && away(root) > 0.0)
@@ -129,26 +129,26 @@ impl Section {
 
     /// t of a place that has a name.
     pub(super) fn t(&self, anchor: Anchor) -> f64 {
-        self.position(Spot::At(anchor)) / self.speed + 0.0
+        self.position(LinePoint::At(anchor)) / self.speed + 0.0
     }
 
     /// The place at t: one that has a name where it is at that very t, so that nothing is rounded
     /// there.
-    pub(super) fn spot(&self, t: f64) -> Spot {
+    pub(super) fn spot(&self, t: f64) -> LinePoint {
         [Anchor::Near, Anchor::Far, Anchor::Foot, Anchor::Start]
             .into_iter()
             .find(|&anchor| self.t(anchor).to_bits() == t.to_bits())
-            .map_or(Spot::Along(t * self.speed), Spot::At)
+            .map_or(LinePoint::Along(t * self.speed), LinePoint::At)
     }
 
     /// From p0 to a place, in lengths.
-    pub(super) fn position(&self, spot: Spot) -> f64 {
+    pub(super) fn position(&self, spot: LinePoint) -> f64 {
         match spot {
-            Spot::At(Anchor::Start) => 0.0,
-            Spot::At(Anchor::Near) => self.near,
-            Spot::At(Anchor::Foot) => self.foot,
-            Spot::At(Anchor::Far) => self.far,
-            Spot::Along(length) => length,
+            LinePoint::At(Anchor::Start) => 0.0,
+            LinePoint::At(Anchor::Near) => self.near,
+            LinePoint::At(Anchor::Foot) => self.foot,
+            LinePoint::At(Anchor::Far) => self.far,
+            LinePoint::Along(length) => length,
         }
     }
 
@@ -163,11 +163,11 @@ impl Section {
     }
 
     /// From an anchor to a place, in lengths.
-    pub(super) fn offset(&self, spot: Spot, anchor: Anchor) -> f64 {
-        let origin = self.position(Spot::At(anchor));
+    pub(super) fn offset(&self, spot: LinePoint, anchor: Anchor) -> f64 {
+        let origin = self.position(LinePoint::At(anchor));
         match spot {
-            Spot::At(to) if to == anchor => 0.0,
-            Spot::At(to) if to != Anchor::Start && anchor != Anchor::Start => {
+            LinePoint::At(to) if to == anchor => 0.0,
+            LinePoint::At(to) if to != Anchor::Start && anchor != Anchor::Start => {
                 self.side(to) - self.side(anchor)
             }
             _ => self.position(spot) - origin,
@@ -197,7 +197,7 @@ impl Section {
     }
 
     /// f at a place, measured from the anchor nearest to it.
-    pub(super) fn value(&self, spot: Spot) -> f64 {
+    pub(super) fn value(&self, spot: LinePoint) -> f64 {
         let away = |&anchor: &Anchor| self.offset(spot, anchor).abs();
         [Anchor::Near, Anchor::Foot, Anchor::Far]
             .into_iter()
@@ -329,7 +329,7 @@ mod tests {
                 for offset in s.sides(anchor, y).into_iter().flatten() {
                     on_circle(s.beyond_foot(anchor, offset), y)?;
                 }
-                let root = s.offset(Spot::At(Anchor::Near), anchor);
+                let root = s.offset(LinePoint::At(Anchor::Near), anchor);
                 if s.class.meets() {
                     prop_assert!(s.power(anchor, root).abs() < 1e-9 * (1.0 + s.foot * s.foot));
                 }

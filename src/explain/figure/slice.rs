@@ -9,12 +9,12 @@
 //!              ⠑⢄   +   ⡠⠊
 //! ```
 
-use super::axis::{Piece, Place};
-use super::canvas::{Canvas, Dash, Dot, Ink};
+use super::axis::{AxisPosition, Piece};
+use super::canvas::{Canvas, Dash, Dot, FigureInk};
 use super::caption::{Caption, caption_of, caption_room, rounded, show, times};
 use super::mark::{Mark, Sign};
-use super::section::{Anchor, Section, Spot};
-use super::view::View;
+use super::section::{Anchor, LinePoint, Section};
+use super::view::SliceView;
 use crate::explain::{Digits, Line, Role, Subject, vector};
 use crate::geometry::Ray;
 use crate::method::Class;
@@ -35,7 +35,7 @@ pub fn slice(
     let section = Section::new(ray, &subject.sphere);
     let figure = |caption_rows: usize| {
         let canvas = Canvas::new(cols, rows.saturating_sub(caption_rows), glyphs);
-        let view = View::of(&section, &canvas);
+        let view = SliceView::of(&section, &canvas);
         let caption = caption(&section, &view, subject, ray, t, glyphs);
         (canvas, view, caption.lines(cols, caption_rows))
     };
@@ -55,7 +55,7 @@ pub fn slice(
 /// What the slice is drawn with.
 struct Drawing {
     canvas: Canvas,
-    view: View,
+    view: SliceView,
     section: Section,
 }
 
@@ -70,7 +70,7 @@ impl Drawing {
         self.canvas.write_marks(marks);
         self.center_below();
         if let Some(tip) = normal {
-            self.canvas.label(tip, "n", Ink::Normal, true);
+            self.canvas.label(tip, "n", FigureInk::Normal, true);
         }
         self.break_lengths();
         self.overview();
@@ -99,7 +99,7 @@ impl Drawing {
             for height in halves.into_iter().flatten() {
                 if self.slope(piece, offset, height) <= STEEP {
                     let y = self.view.base - height * self.view.up;
-                    self.canvas.plot((x, y), Ink::Circle);
+                    self.canvas.plot((x, y), FigureInk::Circle);
                 }
             }
         }
@@ -115,7 +115,7 @@ impl Drawing {
                 let x = self.view.axis.dot_at(piece, offset);
                 let inside = (left..right).contains(&x);
                 if inside && self.slope(piece, offset, height) >= 1.0 / STEEP {
-                    self.canvas.plot((x, y), Ink::Circle);
+                    self.canvas.plot((x, y), FigureInk::Circle);
                 }
             }
         }
@@ -133,28 +133,32 @@ impl Drawing {
     fn line(&mut self) {
         let base = self.view.base;
         let width = self.canvas.size().0;
-        let start = match self.view.axis.place(&self.section, Spot::At(Anchor::Start)) {
-            Place::On(dot) | Place::Break(dot) => dot,
-            Place::Before => 0.0,
-            Place::After => width,
+        let start = match self
+            .view
+            .axis
+            .place(&self.section, LinePoint::At(Anchor::Start))
+        {
+            AxisPosition::On(dot) | AxisPosition::Break(dot) => dot,
+            AxisPosition::Before => 0.0,
+            AxisPosition::After => width,
         };
         self.canvas
-            .line((0.0, base), (start, base), Ink::Behind, Dash::DOTTED);
+            .line((0.0, base), (start, base), FigureInk::Behind, Dash::DOTTED);
         self.canvas
-            .line((start, base), (width, base), Ink::Ray, Dash::SOLID);
+            .line((start, base), (width, base), FigureInk::Ray, Dash::SOLID);
         for (before, after) in self.view.axis.breaks() {
             let ink = if before.right < start {
-                Ink::Behind
+                FigureInk::Behind
             } else {
-                Ink::Ray
+                FigureInk::Ray
             };
             let middle = f64::midpoint(before.right, after.left);
             let room = after.left - before.right;
             self.canvas.zigzag((middle, base), room, ink);
         }
         if let Some((col, row)) = self.canvas.cell_of((width - 1.0, base)) {
-            self.canvas.write(col, row, "▸", Ink::Ray);
-            self.canvas.label((col, row), "d", Ink::Ray, true);
+            self.canvas.write(col, row, "▸", FigureInk::Ray);
+            self.canvas.label((col, row), "d", FigureInk::Ray, true);
         }
     }
 
@@ -165,7 +169,7 @@ impl Drawing {
             let length = self.view.axis.left_out(&before, &after, &self.section);
             let text = rounded(length, 3);
             if let Some(cell) = self.canvas.cell_of((middle, self.view.base)) {
-                self.canvas.label(cell, &text, Ink::Note, true);
+                self.canvas.label(cell, &text, FigureInk::Note, true);
             }
         }
     }
@@ -175,7 +179,7 @@ impl Drawing {
         let x = self
             .view
             .axis
-            .dot(piece, &self.section, Spot::At(Anchor::Foot));
+            .dot(piece, &self.section, LinePoint::At(Anchor::Foot));
         (x, self.view.base + self.section.distance * self.view.up)
     }
 
@@ -183,16 +187,20 @@ impl Drawing {
     fn height_and_tangent(&mut self) {
         let base = self.view.base;
         let depth = self.section.distance * self.view.up;
-        let foot = self.view.axis.place(&self.section, Spot::At(Anchor::Foot));
-        if let (Place::On(x) | Place::Break(x), true) = (foot, depth >= THIN) {
+        let foot = self
+            .view
+            .axis
+            .place(&self.section, LinePoint::At(Anchor::Foot));
+        if let (AxisPosition::On(x) | AxisPosition::Break(x), true) = (foot, depth >= THIN) {
             let center = (x, base + depth);
-            self.canvas.line((x, base), center, Ink::Axis, Dash::DOTTED);
+            self.canvas
+                .line((x, base), center, FigureInk::Axis, Dash::DOTTED);
         }
-        if let (Place::On(x), Class::Miss, Some(touch)) =
+        if let (AxisPosition::On(x), Class::Miss, Some(touch)) =
             (foot, self.section.class, self.touching_dot())
         {
             self.canvas
-                .line((x, base), touch, Ink::Tangent, Dash::SOLID);
+                .line((x, base), touch, FigureInk::Tangent, Dash::SOLID);
         }
     }
 
@@ -200,7 +208,7 @@ impl Drawing {
     fn radius(&mut self) {
         let base = self.view.base;
         let depth = self.section.distance * self.view.up;
-        let on = |anchor| Some(self.view.axis.on(&self.section, Spot::At(anchor))?.1);
+        let on = |anchor| Some(self.view.axis.on(&self.section, LinePoint::At(anchor))?.1);
         let end = match self.section.class {
             Class::Miss => self.touching_dot(),
             Class::Secant => {
@@ -216,19 +224,20 @@ impl Drawing {
         if depth < THIN || self.canvas.cell_of(center).is_none() {
             return;
         }
-        self.canvas.line(center, end, Ink::Radius, Dash::SPARSE);
+        self.canvas
+            .line(center, end, FigureInk::Radius, Dash::SPARSE);
         let middle = (
             f64::midpoint(center.0, end.0),
             f64::midpoint(center.1, end.1),
         );
         if let Some(cell) = self.canvas.cell_of(middle) {
-            self.canvas.label(cell, "r", Ink::Note, true);
+            self.canvas.label(cell, "r", FigureInk::Note, true);
         }
     }
 
     /// The outward normal at the visible point; its tip, for the label.
     fn normal(&mut self) -> Option<(usize, usize)> {
-        let seen = Spot::At(self.section.visible()?);
+        let seen = LinePoint::At(self.section.visible()?);
         let (piece, x) = self.view.axis.on(&self.section, seen)?;
         let from = (x, self.view.base);
         let center = self.center(&piece);
@@ -241,9 +250,10 @@ impl Drawing {
         }
         let tip = (from.0 + dx / length * reach, from.1 + dy / length * reach);
         let cell = self.canvas.cell_of(tip)?;
-        self.canvas.line(from, tip, Ink::Normal, Dash::SOLID);
+        self.canvas.line(from, tip, FigureInk::Normal, Dash::SOLID);
         let (col, row) = cell;
-        self.canvas.write(col, row, arrow(dx, dy), Ink::Normal);
+        self.canvas
+            .write(col, row, arrow(dx, dy), FigureInk::Normal);
         Some(cell)
     }
 
@@ -253,9 +263,9 @@ impl Drawing {
         let (width, _) = self.canvas.size();
         let mark = |name, spot, height: f64, sign, ink| {
             let (x, sign) = match self.view.axis.place(section, spot) {
-                Place::On(x) | Place::Break(x) => (x, sign),
-                Place::Before => (0.0, Sign::Before),
-                Place::After => ((width - 1.0).max(0.0), Sign::After),
+                AxisPosition::On(x) | AxisPosition::Break(x) => (x, sign),
+                AxisPosition::Before => (0.0, Sign::Before),
+                AxisPosition::After => ((width - 1.0).max(0.0), Sign::After),
             };
             Mark {
                 name,
@@ -268,11 +278,11 @@ impl Drawing {
         let root = |name, anchor| {
             let seen = section.visible() == Some(anchor);
             let sign = if seen { Sign::Seen } else { Sign::Unseen };
-            mark(name, Spot::At(anchor), 0.0, sign, Ink::Root)
+            mark(name, LinePoint::At(anchor), 0.0, sign, FigureInk::Root)
         };
-        let point = |name, spot, height, sign| mark(name, spot, height, sign, Ink::Point);
-        let foot = Spot::At(Anchor::Foot);
-        let mut marks = vec![point("p0", Spot::At(Anchor::Start), 0.0, Sign::Eye)];
+        let point = |name, spot, height, sign| mark(name, spot, height, sign, FigureInk::Point);
+        let foot = LinePoint::At(Anchor::Foot);
+        let mut marks = vec![point("p0", LinePoint::At(Anchor::Start), 0.0, Sign::Eye)];
         match section.class {
             Class::Tangent => marks.push(root("B = B′", Anchor::Near)),
             Class::Secant => marks.extend([root("B", Anchor::Near), root("B′", Anchor::Far)]),
@@ -284,7 +294,7 @@ impl Drawing {
         marks.push(point("c", foot, -section.distance, Sign::Center));
         if t.is_finite() {
             let along = section.spot(t);
-            marks.push(mark("p", along, 0.0, Sign::Moved, Ink::Scrub));
+            marks.push(mark("p", along, 0.0, Sign::Moved, FigureInk::Scrub));
         }
         marks
     }
@@ -297,12 +307,12 @@ impl Drawing {
             dot: self.touching_dot()?,
             at: (self.section.foot + x, height),
             sign: Sign::Cross,
-            ink: Ink::Point,
+            ink: FigureInk::Point,
         })
     }
 
     fn touching_dot(&self) -> Option<Dot> {
-        let foot = Spot::At(Anchor::Foot);
+        let foot = LinePoint::At(Anchor::Foot);
         let (_, dot) = self.view.axis.on(&self.section, foot)?;
         let (x, height) = self.section.touching_point();
         Some((
@@ -313,8 +323,10 @@ impl Drawing {
 
     /// An arrow at the lower edge, towards a centre further down.
     fn center_below(&mut self) {
-        let foot = Spot::At(Anchor::Foot);
-        let (Place::On(x) | Place::Break(x)) = self.view.axis.place(&self.section, foot) else {
+        let foot = LinePoint::At(Anchor::Foot);
+        let (AxisPosition::On(x) | AxisPosition::Break(x)) =
+            self.view.axis.place(&self.section, foot)
+        else {
             return;
         };
         let bottom = (self.canvas.size().1 - 1.0).max(0.0);
@@ -322,8 +334,8 @@ impl Drawing {
             return;
         }
         if let Some((col, row)) = self.canvas.cell_of((x, bottom)) {
-            self.canvas.write(col, row, "↓", Ink::Point);
-            self.canvas.label((col, row), "c", Ink::Point, true);
+            self.canvas.write(col, row, "↓", FigureInk::Point);
+            self.canvas.label((col, row), "c", FigureInk::Point, true);
         }
     }
 
@@ -331,7 +343,7 @@ impl Drawing {
     fn zoomed_root(&self) -> Option<Anchor> {
         let main = self.view.axis.main()?;
         [Anchor::Near, Anchor::Far].into_iter().find(|&root| {
-            let on = self.view.axis.on(&self.section, Spot::At(root));
+            let on = self.view.axis.on(&self.section, LinePoint::At(root));
             self.section.class.meets() && on.is_some_and(|(piece, _)| piece.left == main.left)
         })
     }
@@ -353,7 +365,7 @@ impl Drawing {
             return;
         };
         let small = self.miniature(cols, rows);
-        self.canvas.write(col + 1, row + 1, title, Ink::Note);
+        self.canvas.write(col + 1, row + 1, title, FigureInk::Note);
         self.canvas.paste((col + 1, row + 2), &small);
     }
 
@@ -366,16 +378,16 @@ impl Drawing {
         for degrees in (2..360).step_by(4) {
             let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
             let dot = (center.0 + radius * cos, center.1 + radius * sin);
-            sheet.plot(dot, Ink::Circle);
+            sheet.plot(dot, FigureInk::Circle);
         }
         let scale = radius / self.section.radius;
         let line = center.1 - self.section.distance * scale;
-        sheet.line((0.0, line), (width, line), Ink::Ray, Dash::SOLID);
+        sheet.line((0.0, line), (width, line), FigureInk::Ray, Dash::SOLID);
         if let Some(root) = self.zoomed_root() {
             let along = self.section.beyond_foot(root, 0.0) * scale;
             if let Some((col, row)) = sheet.cell_of((center.0 + along, line)) {
                 let sign = Sign::Unseen.glyph(sheet.glyphs());
-                sheet.put(col, row, sign, Ink::Root);
+                sheet.put(col, row, sign, FigureInk::Root);
             }
         }
         sheet
@@ -407,7 +419,7 @@ fn arrow(dx: f64, dy: f64) -> &'static str {
 
 fn caption(
     section: &Section,
-    view: &View,
+    view: &SliceView,
     subject: &Subject,
     ray: &Ray,
     t: f64,
@@ -518,7 +530,7 @@ mod tests {
     fn drawing((subject, ray): &(Subject, Ray), cols: usize, rows: usize) -> Drawing {
         let section = Section::new(ray, &subject.sphere);
         let canvas = Canvas::new(cols, rows, Glyphs::Unicode);
-        let view = View::of(&section, &canvas);
+        let view = SliceView::of(&section, &canvas);
         Drawing {
             canvas,
             view,
@@ -580,7 +592,7 @@ mod tests {
             let radius = drawing.section.radius * drawing.view.up;
             let (width, height) = drawing.canvas.size();
             for mark in drawing.marks(f64::NAN) {
-                if mark.ink != Ink::Root || radius < 2.0 {
+                if mark.ink != FigureInk::Root || radius < 2.0 {
                     continue;
                 }
                 prop_assert_eq!(mark.dot.1, drawing.view.base);
@@ -598,7 +610,7 @@ mod tests {
         fn what_is_apart_is_seen_apart(case in cases::aimed()) {
             let drawing = drawing(&case, 56, 14);
             let marks = drawing.marks(f64::NAN);
-            let roots: Vec<_> = marks.iter().filter(|m| m.ink == Ink::Root).collect();
+            let roots: Vec<_> = marks.iter().filter(|m| m.ink == FigureInk::Root).collect();
             prop_assert_eq!(roots.len(), match drawing.section.class {
                 Class::Secant => 2,
                 Class::Tangent => 1,

@@ -9,7 +9,7 @@
 //!     0   ▲    2^20     2^40
 //! ```
 
-use super::canvas::{Canvas, Dash, Dot, Ink};
+use super::canvas::{Canvas, Dash, Dot, FigureInk};
 use crate::explain::Line;
 use crate::lab::chart::{BITS, DialPoint, Scale};
 use crate::text::Glyphs;
@@ -42,10 +42,10 @@ pub fn turning(
     let bits = settings
         .iter()
         .filter_map(|s| Some((s.k, BITS.part(s.bits?))));
-    sheet.line(bits, Ink::Behind, Dash::DOTTED);
+    sheet.line(bits, FigureInk::Behind, Dash::DOTTED);
     sheet.line(
         settings.iter().map(|s| (s.k, s.wrong)),
-        Ink::Curve,
+        FigureInk::Curve,
         Dash::SOLID,
     );
     sheet.mark(now);
@@ -83,18 +83,18 @@ impl Sheet {
         } else {
             "— % wrong   … bits lost"
         };
-        self.canvas.write(SIDES.0, 0, legend, Ink::Note);
+        self.canvas.write(SIDES.0, 0, legend, FigureInk::Note);
         for row in 1..foot {
-            self.canvas.put(SIDES.0 - 1, row, up, Ink::Axis);
-            self.canvas.put(right, row, up, Ink::Axis);
+            self.canvas.put(SIDES.0 - 1, row, up, FigureInk::Axis);
+            self.canvas.put(right, row, up, FigureInk::Axis);
         }
         for col in SIDES.0 - 1..=right {
-            self.canvas.put(col, foot, line, Ink::Axis);
+            self.canvas.put(col, foot, line, FigureInk::Axis);
         }
-        self.canvas.write(0, 1, "100", Ink::Note);
-        self.canvas.write(right + 1, 1, "24", Ink::Note);
-        self.canvas.write(2, foot - 1, "0", Ink::Note);
-        self.canvas.write(right + 1, foot - 1, "0", Ink::Note);
+        self.canvas.write(0, 1, "100", FigureInk::Note);
+        self.canvas.write(right + 1, 1, "24", FigureInk::Note);
+        self.canvas.write(2, foot - 1, "0", FigureInk::Note);
+        self.canvas.write(right + 1, foot - 1, "0", FigureInk::Note);
         let step = [5, 10, 20, 40]
             .into_iter()
             .find(|s| most as usize * 7 <= s * self.cols);
@@ -103,14 +103,14 @@ impl Sheet {
             let cell = self.canvas.cell_of(self.place(k.into(), 0.0));
             let fits = |(col, _): &(usize, usize)| col + label.len() <= right + SIDES.1;
             if let Some((col, _)) = cell.filter(fits) {
-                self.canvas.put(col, foot, tick, Ink::Axis);
-                self.canvas.write(col, foot + 1, &label, Ink::Note);
+                self.canvas.put(col, foot, tick, FigureInk::Axis);
+                self.canvas.write(col, foot + 1, &label, FigureInk::Note);
             }
         }
     }
 
     /// A line through settings that follow each other; a gap in the tries is bridged.
-    fn line(&mut self, points: impl Iterator<Item = (i32, f64)>, ink: Ink, dash: Dash) {
+    fn line(&mut self, points: impl Iterator<Item = (i32, f64)>, ink: FigureInk, dash: Dash) {
         let mut last: Option<Dot> = None;
         for (k, share) in points {
             let dot = self.place(k.into(), share);
@@ -127,7 +127,7 @@ impl Sheet {
             Glyphs::Ascii => '^',
         };
         if let Some((col, _)) = self.canvas.cell_of(self.place(now.into(), 0.0)) {
-            self.canvas.put(col, self.foot, glyph, Ink::Scrub);
+            self.canvas.put(col, self.foot, glyph, FigureInk::Scrub);
         }
     }
 }

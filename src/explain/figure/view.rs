@@ -4,14 +4,14 @@
 //! break if it is far; the roots, or the gap of a miss, with heights stretched; p0 and the surface
 //! under it.
 
-use super::axis::{Axis, Frame, Place, Stretch};
+use super::axis::{Axis, AxisPosition, DrawingArea, Stretch};
 use super::canvas::Canvas;
-use super::section::{Anchor, Section, Spot};
+use super::section::{Anchor, LinePoint, Section};
 use crate::method::Class;
 
 /// What part of the plane is seen, and how large.
 #[derive(Debug, Clone)]
-pub(super) struct View {
+pub(super) struct SliceView {
     pub axis: Axis,
     /// The line's height, in dots from the top.
     pub base: f64,
@@ -25,7 +25,7 @@ const APART: f64 = 5.0;
 /// The least gap between line and circle, in dots, that is seen as one.
 const GAP: f64 = 1.5;
 
-impl View {
+impl SliceView {
     /// The widest view that shows what matters: that two points are two, and a gap a gap.
     pub(super) fn of(section: &Section, canvas: &Canvas) -> Self {
         let frame = frame(canvas);
@@ -41,7 +41,7 @@ impl View {
     }
 
     /// The whole circle, and p0: beyond a break if the circle would be small otherwise.
-    fn whole(section: &Section, frame: Frame) -> Self {
+    fn whole(section: &Section, frame: DrawingArea) -> Self {
         let Section { radius, foot, .. } = *section;
         let (top, height) = (section.depth().max(0.0), section.distance + radius);
         let tall = top + height;
@@ -73,7 +73,7 @@ impl View {
     }
 
     /// Both roots, or the tangent of a miss, and p0 if it is not far; heights stretched.
-    fn around_foot(section: &Section, frame: Frame) -> Self {
+    fn around_foot(section: &Section, frame: DrawingArea) -> Self {
         let touch = match section.class {
             Class::Miss => section.touching_point(),
             _ => (section.half, 0.0),
@@ -96,9 +96,9 @@ impl View {
     }
 
     /// p0 and the root nearest to it, the other root beyond a break; heights stretched if flat.
-    fn around_start(section: &Section, frame: Frame) -> Option<Self> {
+    fn around_start(section: &Section, frame: DrawingArea) -> Option<Self> {
         let root = section.nearest_root()?;
-        let start = section.offset(Spot::At(Anchor::Start), root);
+        let start = section.offset(LinePoint::At(Anchor::Start), root);
         let around = 0.8 * start.abs();
         let mut stretch = Stretch {
             anchor: root,
@@ -109,7 +109,7 @@ impl View {
             Anchor::Near => Anchor::Far,
             _ => Anchor::Near,
         };
-        let away = section.offset(Spot::At(other), root);
+        let away = section.offset(LinePoint::At(other), root);
         let mut breaks = [None, None];
         if away > stretch.to + 2.0 * around {
             breaks[1] = Some(other);
@@ -125,7 +125,7 @@ impl View {
     /// A view of part of the line; heights are stretched if the circle is all but flat in it.
     fn stretched(
         section: &Section,
-        frame: Frame,
+        frame: DrawingArea,
         [before, after]: [Option<Anchor>; 2],
         stretch: Stretch,
         lowest: f64,
@@ -162,13 +162,13 @@ impl View {
     }
 
     /// Whether p0 and the roots are seen apart where they are, and a gap is seen as one.
-    fn tells_apart(&self, section: &Section, frame: Frame) -> bool {
+    fn tells_apart(&self, section: &Section, frame: DrawingArea) -> bool {
         let apart = APART.min(frame.width() / 8.0);
         if section.class == Class::Miss {
             return -section.depth() * self.up >= GAP.min(frame.height() / 8.0);
         }
-        let dot = |anchor| match self.axis.place(section, Spot::At(anchor)) {
-            Place::On(dot) => Some(dot),
+        let dot = |anchor| match self.axis.place(section, LinePoint::At(anchor)) {
+            AxisPosition::On(dot) => Some(dot),
             _ => None,
         };
         let [start, near, far] = [Anchor::Start, Anchor::Near, Anchor::Far].map(dot);
@@ -216,11 +216,11 @@ fn sides_of(foot: f64) -> [Option<Anchor>; 2] {
 }
 
 /// The room for shapes: margins are for labels.
-fn frame(canvas: &Canvas) -> Frame {
+fn frame(canvas: &Canvas) -> DrawingArea {
     let (width, height) = canvas.size();
     let side = (width / 10.0).min(8.0);
     let edge = (height / 8.0).min(5.0);
-    Frame {
+    DrawingArea {
         left: side,
         right: width - side,
         top: edge,

@@ -11,7 +11,7 @@
 //! *t textbook     12     5224      2.4
 //! ```
 
-use super::canvas::{Canvas, Dash, Dot, Ink};
+use super::canvas::{Canvas, Dash, Dot, FigureInk};
 use crate::explain::{Line, Role};
 use crate::lab::bench::text::{brief, settled_by};
 use crate::lab::bench::{MeasuredMethod, MeasuredSet};
@@ -242,19 +242,19 @@ impl CharacterChart {
         let (left, canvas) = (self.left, &mut self.canvas);
         let title = "99 % of the errors, in ulp →";
         let start = left + self.cols - title.chars().count().min(self.cols);
-        canvas.write(left - 3, 0, "ns", Ink::Note);
-        canvas.write(start, 0, title, Ink::Note);
+        canvas.write(left - 3, 0, "ns", FigureInk::Note);
+        canvas.write(start, 0, title, FigureInk::Note);
         let [line, up, corner] = match canvas.glyphs() {
             Glyphs::Unicode => ['─', '│', '└'],
             Glyphs::Ascii => ['-', '|', '+'],
         };
         for row in 1..foot {
-            canvas.put(left - 1, row, up, Ink::Axis);
+            canvas.put(left - 1, row, up, FigureInk::Axis);
         }
         for col in left..left + self.cols {
-            canvas.put(col, foot, line, Ink::Axis);
+            canvas.put(col, foot, line, FigureInk::Axis);
         }
-        canvas.put(left - 1, foot, corner, Ink::Axis);
+        canvas.put(left - 1, foot, corner, FigureInk::Axis);
     }
 
     /// The powers of two at the left, a line apart at least.
@@ -272,8 +272,8 @@ impl CharacterChart {
             last = row;
             let label = brief_power(log);
             let at = (self.left - 1).saturating_sub(label.chars().count());
-            self.canvas.write(at, row, &label, Ink::Note);
-            self.canvas.put(self.left - 1, row, tick, Ink::Axis);
+            self.canvas.write(at, row, &label, FigureInk::Note);
+            self.canvas.put(self.left - 1, row, tick, FigureInk::Axis);
         }
     }
 
@@ -297,8 +297,8 @@ impl CharacterChart {
             let label = self.canvas.glyphs().spell(&label);
             let width = label.chars().count();
             if col + width <= self.left + self.cols {
-                self.canvas.put(col, foot, tick, Ink::Axis);
-                self.canvas.write(col, foot + 1, &label, Ink::Note);
+                self.canvas.put(col, foot, tick, FigureInk::Axis);
+                self.canvas.write(col, foot + 1, &label, FigureInk::Note);
             }
         }
     }
@@ -314,7 +314,7 @@ impl CharacterChart {
         let line: Vec<Dot> = best(points).iter().map(|p| self.place(p)).collect();
         for pair in line.windows(2) {
             self.canvas
-                .line(pair[0], pair[1], Ink::Pareto, Dash::DOTTED);
+                .line(pair[0], pair[1], FigureInk::Pareto, Dash::DOTTED);
         }
     }
 
@@ -332,12 +332,12 @@ impl CharacterChart {
         }
         for ((col, line), group) in &groups {
             let letter = letter(group[0].method);
-            self.canvas.put(*col, *line, letter, Ink::Root);
+            self.canvas.put(*col, *line, letter, FigureInk::Root);
         }
         for (cell, group) in &groups {
             let label = label(group, rays);
-            if !self.canvas.label_beside(*cell, &label, Ink::Note) {
-                self.canvas.label(*cell, &label, Ink::Note, true);
+            if !self.canvas.label_beside(*cell, &label, FigureInk::Note) {
+                self.canvas.label(*cell, &label, FigureInk::Note, true);
             }
         }
     }

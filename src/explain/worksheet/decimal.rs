@@ -5,7 +5,7 @@ use crate::method::Precision;
 
 /// units/10^places.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Decimal {
+pub(super) struct DecimalFraction {
     pub units: i128,
     pub places: u32,
 }
@@ -21,7 +21,7 @@ pub(super) const MOST_PLACES: u32 = 6;
 /// Whole numbers up to here keep everything below within 127 bits.
 const MOST_UNITS: i128 = 1_000_000_000;
 
-impl Decimal {
+impl DecimalFraction {
     /// The number as it is written, rounded to `places` digits behind the point; none if it is too
     /// long to work with.
     pub fn of(x: f32, places: u32) -> Option<Self> {
@@ -87,19 +87,19 @@ pub(super) fn ratio(numerator: i128, denominator: i128) -> f64 {
 
 /// A number that a student writes down after a calculation.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Answer {
+pub(super) enum WrittenNumber {
     /// A short decimal, exactly.
-    Exact(Decimal),
+    Exact(DecimalFraction),
     /// A number with no end.
     Near(f64),
 }
 
-impl Answer {
+impl WrittenNumber {
     /// numerator/denominator, exactly if that has few digits.
     pub fn quotient(numerator: i128, denominator: i128) -> Self {
         let exact = || {
             let scaled = numerator.checked_mul(power_of_ten(MOST_PLACES))?;
-            (scaled % denominator == 0).then(|| Decimal {
+            (scaled % denominator == 0).then(|| DecimalFraction {
                 units: scaled / denominator,
                 places: MOST_PLACES,
             })
@@ -143,21 +143,21 @@ mod tests {
 
     #[test]
     fn numbers_are_written_as_by_hand() {
-        let text = |x, places| Decimal::of(x, places).unwrap().text();
+        let text = |x, places| DecimalFraction::of(x, places).unwrap().text();
         assert_eq!(text(-0.75, 2), "−0.75");
         assert_eq!(text(20.0, 3), "20");
         assert_eq!(text(0.007_643_267, 3), "0.008");
         assert_eq!(text(-0.0004, 3), "0");
-        assert_eq!(Decimal::of(1e30, 0), None);
-        assert_eq!(Decimal::places_of(0.1), 1);
-        assert_eq!(Decimal::places_of(-40.0), 0);
+        assert_eq!(DecimalFraction::of(1e30, 0), None);
+        assert_eq!(DecimalFraction::places_of(0.1), 1);
+        assert_eq!(DecimalFraction::places_of(-40.0), 0);
     }
 
     #[test]
     fn an_answer_says_whether_it_is_rounded() {
-        assert_eq!(Answer::quotient(-7, 4).equation(), "= −1.75");
-        assert_eq!(Answer::quotient(1, 3).equation(), "≈ 0.33333");
-        let long = |units| Decimal { units, places: 9 };
+        assert_eq!(WrittenNumber::quotient(-7, 4).equation(), "= −1.75");
+        assert_eq!(WrittenNumber::quotient(1, 3).equation(), "≈ 0.33333");
+        let long = |units| DecimalFraction { units, places: 9 };
         assert_eq!(long(123_456_789_012).equation(), "= 123.456789012");
         assert_eq!(long(1_234_567_890_123).equation(), "≈ 1234.6");
         assert_eq!(long(1_200_000_000_000).digits(), 2);

@@ -1,9 +1,9 @@
 //! One exercise: what is given, what is asked, and what is right.
 
 use super::super::{Digits, number};
-use super::decimal::{Answer, Decimal, rounded, rounded_to};
-use super::question::{Answers, Question};
-use super::{Candidate, Kind};
+use super::decimal::{DecimalFraction, WrittenNumber, rounded, rounded_to};
+use super::question::{PaperAnswers, PaperQuestion};
+use super::{Kind, ProblemPixel};
 use crate::method::trace::Measured;
 use crate::method::{Class, Method, Place, Precision};
 use crate::scene::Scene;
@@ -49,7 +49,7 @@ impl Task {
 }
 
 /// The exercise of a pixel, and how much work it is; none where its numbers are too long.
-pub(super) fn of(scene: &Scene, candidate: &Candidate) -> Option<(u32, Exercise)> {
+pub(super) fn of(scene: &Scene, candidate: &ProblemPixel) -> Option<(u32, Exercise)> {
     if candidate.kind == Kind::Rounding {
         return rounding(scene, candidate);
     }
@@ -59,7 +59,7 @@ pub(super) fn of(scene: &Scene, candidate: &Candidate) -> Option<(u32, Exercise)
     for &body in &bodies[..distinct] {
         let sphere = &scene.bodies[body].sphere;
         let found = Method::Exact.solve(&candidate.ray, sphere);
-        let question = Question::new(&candidate.ray, sphere, found.class, found.place())?;
+        let question = PaperQuestion::new(&candidate.ray, sphere, found.class, found.place())?;
         questions.push((body, question));
     }
     // Both spheres are met by the one ray on the sheet: the one with more digits.
@@ -108,10 +108,10 @@ pub(super) fn of(scene: &Scene, candidate: &Candidate) -> Option<(u32, Exercise)
 }
 
 /// How many digits a person has to handle.
-fn effort(question: &Question, answers: &Answers) -> u32 {
-    let digits = |v: &[Decimal]| v.iter().map(|x| x.digits()).sum::<u32>();
+fn effort(question: &PaperQuestion, answers: &PaperAnswers) -> u32 {
+    let digits = |v: &[DecimalFraction]| v.iter().map(|x| x.digits()).sum::<u32>();
     let long_root = match answers.roots {
-        Some([Answer::Near(_), _]) => 4,
+        Some([WrittenNumber::Near(_), _]) => 4,
         _ => 0,
     };
     digits(&question.direction)
@@ -121,11 +121,11 @@ fn effort(question: &Question, answers: &Answers) -> u32 {
         + long_root
 }
 
-fn vector(v: &[Decimal; 3]) -> String {
-    format!("({})", v.map(Decimal::text).join(", "))
+fn vector(v: &[DecimalFraction; 3]) -> String {
+    format!("({})", v.map(DecimalFraction::text).join(", "))
 }
 
-fn ray_given(candidate: &Candidate, question: &Question) -> Vec<String> {
+fn ray_given(candidate: &ProblemPixel, question: &PaperQuestion) -> Vec<String> {
     let (x, y) = candidate.pixel;
     let rounded = if question.own {
         ""
@@ -139,7 +139,7 @@ fn ray_given(candidate: &Candidate, question: &Question) -> Vec<String> {
     ]
 }
 
-fn sphere_given(scene: &Scene, body: usize, question: &Question) -> String {
+fn sphere_given(scene: &Scene, body: usize, question: &PaperQuestion) -> String {
     let name = match &scene.bodies[body].name {
         Some(name) => format!("Sphere {}, {name}", body + 1),
         None => format!("Sphere {}", body + 1),
@@ -148,7 +148,7 @@ fn sphere_given(scene: &Scene, body: usize, question: &Question) -> String {
     format!("{name}:  c = {c}   r = {r}")
 }
 
-fn along(question: &Question) -> Vec<Task> {
+fn along(question: &PaperQuestion) -> Vec<Task> {
     let d = question.direction;
     // The axis along which the ray gets on fastest, and where the sphere's centre is on it.
     let axis = (0..3).max_by_key(|&i| d[i].units.abs()).unwrap_or(2);
@@ -180,14 +180,14 @@ fn along(question: &Question) -> Vec<Task> {
 }
 
 /// units/10^places over a decimal.
-fn scaled_quotient(units: i128, places: u32, by: Decimal) -> Answer {
+fn scaled_quotient(units: i128, places: u32, by: DecimalFraction) -> WrittenNumber {
     let [up, down] = [by.places, places].map(super::decimal::power_of_ten);
     let sign = by.units.signum();
-    Answer::quotient(sign * units * up, sign * by.units * down)
+    WrittenNumber::quotient(sign * units * up, sign * by.units * down)
 }
 
 /// The point p0 + t·d of the sphere, in as many digits as its place on the sphere needs.
-fn visible_point(question: &Question, t: Answer) -> String {
+fn visible_point(question: &PaperQuestion, t: WrittenNumber) -> String {
     let greatest = question
         .center
         .map(|x| x.value().abs())
@@ -199,15 +199,15 @@ fn visible_point(question: &Question, t: Answer) -> String {
 }
 
 /// The point p0 + t·d in at most so many digits.
-fn at(question: &Question, t: f64, digits: usize) -> String {
+fn at(question: &PaperQuestion, t: f64, digits: usize) -> String {
     let point = [0, 1, 2].map(|i| question.origin[i].value() + t * question.direction[i].value());
     // A sum of decimals is off in its last binary digit; nobody writes that down.
     let short = point.map(|x| rounded_to((x * 1e9).round() / 1e9, digits));
     format!("({})", short.join(", "))
 }
 
-fn one(question: &Question, answers: &Answers) -> Vec<Task> {
-    let Answers { a, b, c, .. } = answers;
+fn one(question: &PaperQuestion, answers: &PaperAnswers) -> Vec<Task> {
+    let PaperAnswers { a, b, c, .. } = answers;
     let [a, b, c] = [a, b, c].map(|x| x.equation());
     let mut tasks = vec![
         Task::new(
@@ -283,7 +283,7 @@ fn one(question: &Question, answers: &Answers) -> Vec<Task> {
 }
 
 /// What the negative number of a miss means.
-fn missed(question: &Question, answers: &Answers) -> Task {
+fn missed(question: &PaperQuestion, answers: &PaperAnswers) -> Task {
     let t = answers.closest;
     let offset =
         [0, 1, 2].map(|i| answers.o[i].value() + t.value() * question.direction[i].value());
@@ -301,7 +301,7 @@ fn missed(question: &Question, answers: &Answers) -> Task {
     )
 }
 
-fn check(question: &Question, class: Class) -> Task {
+fn check(question: &PaperQuestion, class: Class) -> Task {
     if class == Class::Tangent {
         return Task::new(
             "Work out (p − c)·d. What does it say of the line and the radius that ends in p?",
@@ -319,7 +319,7 @@ fn check(question: &Question, class: Class) -> Task {
     )
 }
 
-type Solved = (usize, Question, Answers);
+type Solved = (usize, PaperQuestion, PaperAnswers);
 
 fn two(first: &Solved, second: &Solved) -> Option<Vec<Task>> {
     let visible = |(_, _, answers): &Solved| {
@@ -367,9 +367,9 @@ fn two(first: &Solved, second: &Solved) -> Option<Vec<Task>> {
 }
 
 /// What binary32 makes of a discriminant that it has too few digits for.
-fn rounding(scene: &Scene, candidate: &Candidate) -> Option<(u32, Exercise)> {
+fn rounding(scene: &Scene, candidate: &ProblemPixel) -> Option<(u32, Exercise)> {
     let body = candidate.bodies[0];
-    let Candidate { ray, pixel, .. } = candidate;
+    let ProblemPixel { ray, pixel, .. } = candidate;
     let trace = Method::Textbook.trace(ray, &scene.bodies[body].sphere);
     let part = |symbol| trace.step(symbol)?.result.parts().first();
     let [squared, product] = [part("B²")?, part("4AC")?];

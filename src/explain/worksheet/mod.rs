@@ -73,7 +73,7 @@ impl Kind {
 
 /// A pixel that shows something to ask about.
 #[derive(Debug, Clone, Copy)]
-struct Candidate {
+struct ProblemPixel {
     pixel: (u32, u32),
     ray: Ray,
     kind: Kind,
@@ -136,7 +136,7 @@ impl Worksheet {
 }
 
 /// What the pixels of the picture show, in an order drawn by the seed.
-fn candidates(scene: &Scene, rays: &Rays, random: &mut Random) -> Vec<Candidate> {
+fn candidates(scene: &Scene, rays: &Rays, random: &mut Random) -> Vec<ProblemPixel> {
     let mut pixels: Vec<u32> = (0..rays.size.area() as u32).collect();
     let spheres = scene.bodies.len();
     if spheres == 0 {
@@ -154,11 +154,11 @@ fn candidates(scene: &Scene, rays: &Rays, random: &mut Random) -> Vec<Candidate>
 }
 
 /// What one pixel shows, as far as it makes an exercise.
-fn shown(scene: &Scene, pixel: (u32, u32), ray: Ray) -> Vec<Candidate> {
+fn shown(scene: &Scene, pixel: (u32, u32), ray: Ray) -> Vec<ProblemPixel> {
     let meetings = super::meetings(scene, &ray, Method::Exact);
     let seen = meetings.iter().filter(|m| m.solution.visible().is_some());
     let seen: Vec<_> = seen.map(|m| m.body).collect();
-    let of = |kind, bodies| Candidate {
+    let of = |kind, bodies| ProblemPixel {
         pixel,
         ray,
         kind,

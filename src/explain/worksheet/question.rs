@@ -1,35 +1,35 @@
 //! A pixel's question in numbers that a person can work with: rounded to few decimals, and then
 //! answered without any rounding.
 
-use super::decimal::{Answer, Decimal, MOST_PLACES, power_of_ten, ratio};
+use super::decimal::{DecimalFraction, MOST_PLACES, WrittenNumber, power_of_ten, ratio};
 use crate::geometry::{Ray, Sphere};
 use crate::method::{Class, Place};
 
 /// A ray and a sphere in decimals.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Question {
-    pub origin: [Decimal; 3],
-    pub direction: [Decimal; 3],
-    pub center: [Decimal; 3],
-    pub radius: Decimal,
+pub(super) struct PaperQuestion {
+    pub origin: [DecimalFraction; 3],
+    pub direction: [DecimalFraction; 3],
+    pub center: [DecimalFraction; 3],
+    pub radius: DecimalFraction,
     /// Whether these are the pixel's own numbers, none of them rounded.
     pub own: bool,
 }
 
 /// The quadratic of a question, and what it says.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Answers {
-    pub o: [Decimal; 3],
-    pub a: Decimal,
-    pub b: Decimal,
-    pub c: Decimal,
-    pub discriminant: Decimal,
+pub(super) struct PaperAnswers {
+    pub o: [DecimalFraction; 3],
+    pub a: DecimalFraction,
+    pub b: DecimalFraction,
+    pub c: DecimalFraction,
+    pub discriminant: DecimalFraction,
     pub class: Class,
     pub place: Option<Place>,
     /// The near and the far root, if there are any.
-    pub roots: Option<[Answer; 2]>,
+    pub roots: Option<[WrittenNumber; 2]>,
     /// −B/2A, where the line comes closest to the centre.
-    pub closest: Answer,
+    pub closest: WrittenNumber,
 }
 
 /// How far a component of d may be moved by rounding, as a part of the greatest.
@@ -37,7 +37,7 @@ const MOVED: f64 = 0.01;
 /// The most digits behind the point of a number of the scene that is left as it is.
 const OWN_PLACES: u32 = 3;
 
-impl Question {
+impl PaperQuestion {
     /// The question of a ray and a sphere in the fewest decimals that keep its answer: class, place,
     /// and the direction to one part in a hundred. None if that takes more than six.
     pub fn new(ray: &Ray, sphere: &Sphere, class: Class, place: Option<Place>) -> Option<Self> {
@@ -62,21 +62,21 @@ impl Question {
         let [origin, direction, center] =
             [ray.origin, ray.direction, sphere.center].map(|v| v.to_array());
         let most = |numbers: &[f32]| {
-            let each = numbers.iter().map(|&x| Decimal::places_of(x));
+            let each = numbers.iter().map(|&x| DecimalFraction::places_of(x));
             each.max().unwrap_or(0)
         };
         let at = most(&[&origin[..], &center, &[sphere.radius]].concat());
         let position = if at <= OWN_PLACES { at } else { places };
         let ahead = most(&direction).min(places);
         let three = |v: [f32; 3], places| {
-            let [x, y, z] = v.map(|x| Decimal::of(x, places));
+            let [x, y, z] = v.map(|x| DecimalFraction::of(x, places));
             Some([x?, y?, z?])
         };
         let question = Self {
             origin: three(origin, position)?,
             direction: three(direction, ahead)?,
             center: three(center, position)?,
-            radius: Decimal::of(sphere.radius, position)?,
+            radius: DecimalFraction::of(sphere.radius, position)?,
             own: at <= position && most(&direction) <= places,
         };
         let moves = question.direction.iter().any(|x| x.units != 0);
@@ -84,7 +84,7 @@ impl Question {
     }
 
     /// The answer in whole numbers; none where they grow too long.
-    pub fn answers(&self) -> Option<Answers> {
+    pub fn answers(&self) -> Option<PaperAnswers> {
         let d = self.direction.map(|x| x.units);
         let o = [0, 1, 2].map(|i| self.origin[i].units - self.center[i].units);
         let [ahead, position] = [self.direction[0].places, self.radius.places];
@@ -107,8 +107,8 @@ impl Question {
             (-1, _) | (0, -1) => Place::Inside,
             _ => Place::Behind,
         });
-        let decimal = |units, places| Decimal { units, places };
-        Some(Answers {
+        let decimal = |units, places| DecimalFraction { units, places };
+        Some(PaperAnswers {
             o: o.map(|x| decimal(x, position)),
             a: decimal(a, 2 * ahead),
             b: decimal(b, ahead + position),
@@ -130,16 +130,23 @@ fn dot(u: [i128; 3], v: [i128; 3]) -> Option<i128> {
 
 /// (numerator/denominator)·10^(ahead − position): a t, whose units are those of positions over those
 /// of directions.
-fn scaled(numerator: i128, denominator: i128, ahead: u32, position: u32) -> Answer {
+fn scaled(numerator: i128, denominator: i128, ahead: u32, position: u32) -> WrittenNumber {
     let [up, down] = [ahead, position].map(power_of_ten);
     let both = (numerator.checked_mul(up), denominator.checked_mul(down));
     match both {
-        (Some(numerator), Some(denominator)) => Answer::quotient(numerator, denominator),
-        _ => Answer::Near(ratio(numerator, denominator) * ratio(up, down)),
+        (Some(numerator), Some(denominator)) => WrittenNumber::quotient(numerator, denominator),
+        _ => WrittenNumber::Near(ratio(numerator, denominator) * ratio(up, down)),
     }
 }
 
-fn roots(a: i128, b: i128, c: i128, discriminant: i128, ahead: u32, position: u32) -> [Answer; 2] {
+fn roots(
+    a: i128,
+    b: i128,
+    c: i128,
+    discriminant: i128,
+    ahead: u32,
+    position: u32,
+) -> [WrittenNumber; 2] {
     let root = discriminant.unsigned_abs().isqrt() as i128;
     if root * root == discriminant {
         return [-root, root].map(|root| scaled(root - b, 2 * a, ahead, position));
@@ -148,7 +155,7 @@ fn roots(a: i128, b: i128, c: i128, discriminant: i128, ahead: u32, position: u3
     let b = b as f64;
     let q = -0.5 * (b + (discriminant as f64).sqrt().copysign(b));
     let [one, other] = [q / a as f64, c as f64 / q]
-        .map(|t| Answer::Near(t * ratio(power_of_ten(ahead), power_of_ten(position))));
+        .map(|t| WrittenNumber::Near(t * ratio(power_of_ten(ahead), power_of_ten(position))));
     if one.value() < other.value() {
         [one, other]
     } else {
@@ -164,18 +171,18 @@ mod tests {
 
     use crate::method::Method;
 
-    fn question_in(x: [i16; 10], places: [u32; 2]) -> Question {
-        let at = |i: usize, places| Decimal {
+    fn question_in(x: [i16; 10], places: [u32; 2]) -> PaperQuestion {
+        let at = |i: usize, places| DecimalFraction {
             units: x[i].into(),
             places,
         };
         let three = |i: usize, places| [0, 1, 2].map(|j| at(i + j, places));
         let radius = at(9, places[1]);
-        Question {
+        PaperQuestion {
             origin: three(0, places[1]),
             direction: three(3, places[0]),
             center: three(6, places[1]),
-            radius: Decimal {
+            radius: DecimalFraction {
                 units: radius.units.abs(),
                 ..radius
             },
@@ -193,7 +200,7 @@ mod tests {
             ],
             places in [0..=3_u32, 0..=3_u32],
         ) {
-            let whole = |v: [Decimal; 3]| Vec3::from(v.map(|x| x.units as f32));
+            let whole = |v: [DecimalFraction; 3]| Vec3::from(v.map(|x| x.units as f32));
             let question = question_in(x, places);
             let ray = Ray::new(whole(question.origin), whole(question.direction));
             prop_assume!(ray.is_ok());
@@ -212,11 +219,11 @@ mod tests {
         }
     }
 
-    fn question(p0: [f32; 3], d: [f32; 3], c: [f32; 3], r: f32) -> Question {
+    fn question(p0: [f32; 3], d: [f32; 3], c: [f32; 3], r: f32) -> PaperQuestion {
         let ray = Ray::new(p0.into(), d.into()).unwrap();
         let sphere = Sphere::new(Vec3::from(c), r).unwrap();
         let found = Method::Exact.solve(&ray, &sphere);
-        Question::new(&ray, &sphere, found.class, found.place()).unwrap()
+        PaperQuestion::new(&ray, &sphere, found.class, found.place()).unwrap()
     }
 
     #[test]
@@ -224,9 +231,10 @@ mod tests {
         let question = question([20.0, 20.0, 0.0], [0.0, 0.0, 1.0], [20.0; 3], 10.0);
         assert!(question.own);
         let answers = question.answers().unwrap();
-        let text = [answers.a, answers.b, answers.c, answers.discriminant].map(Decimal::text);
+        let text =
+            [answers.a, answers.b, answers.c, answers.discriminant].map(DecimalFraction::text);
         assert_eq!(text, ["1", "−40", "300", "400"]);
-        let roots = answers.roots.unwrap().map(Answer::equation);
+        let roots = answers.roots.unwrap().map(WrittenNumber::equation);
         assert_eq!(roots, ["= 10", "= 30"]);
         assert_eq!(answers.place, Some(Place::Hit));
     }
@@ -241,7 +249,7 @@ mod tests {
         );
         assert!(!question.own);
         assert_eq!(
-            question.direction.map(Decimal::text),
+            question.direction.map(DecimalFraction::text),
             ["0.01", "−0.18", "−0.98"]
         );
         let answers = question.answers().unwrap();

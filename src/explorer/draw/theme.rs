@@ -3,7 +3,7 @@
 use ratatui::buffer::Buffer;
 use ratatui::style::{Color, Modifier, Style};
 
-use crate::explain::{Ink, Role};
+use crate::explain::{FigureInk, Role};
 use crate::method::Class;
 use crate::render::{AnsiColor, ColorDepth};
 use crate::scene::Rgb;
@@ -122,18 +122,20 @@ impl Theme {
     }
 
     /// A part of a figure. Letters and dash patterns tell the parts apart, too.
-    fn ink(self, ink: Ink) -> Style {
+    fn ink(self, ink: FigureInk) -> Style {
         match ink {
-            Ink::Axis | Ink::Pareto | Ink::Radius => Style::new().add_modifier(Modifier::DIM),
-            Ink::Behind => self.hue(Color::Yellow).add_modifier(Modifier::DIM),
-            Ink::Circle | Ink::Curve => self.hue(Color::LightCyan),
-            Ink::Ray => self.hue(Color::LightYellow),
-            Ink::Tangent => self.hue(Color::LightMagenta),
-            Ink::Normal => self.hue(Color::LightBlue),
-            Ink::Note => Style::new(),
-            Ink::Point => Style::new().add_modifier(Modifier::BOLD),
-            Ink::Root => self.hue(Color::LightGreen).add_modifier(Modifier::BOLD),
-            Ink::Scrub => self
+            FigureInk::Axis | FigureInk::Pareto | FigureInk::Radius => {
+                Style::new().add_modifier(Modifier::DIM)
+            }
+            FigureInk::Behind => self.hue(Color::Yellow).add_modifier(Modifier::DIM),
+            FigureInk::Circle | FigureInk::Curve => self.hue(Color::LightCyan),
+            FigureInk::Ray => self.hue(Color::LightYellow),
+            FigureInk::Tangent => self.hue(Color::LightMagenta),
+            FigureInk::Normal => self.hue(Color::LightBlue),
+            FigureInk::Note => Style::new(),
+            FigureInk::Point => Style::new().add_modifier(Modifier::BOLD),
+            FigureInk::Root => self.hue(Color::LightGreen).add_modifier(Modifier::BOLD),
+            FigureInk::Scrub => self
                 .hue(Color::LightMagenta)
                 .add_modifier(Modifier::BOLD | Modifier::REVERSED),
         }
@@ -360,13 +362,13 @@ mod tests {
         let classes = [Class::Miss, Class::Tangent, Class::Secant, Class::Nan];
         let roles = [Role::Formula, Role::Value, Role::Warning, Role::Changed];
         let inks = [
-            Ink::Behind,
-            Ink::Circle,
-            Ink::Ray,
-            Ink::Tangent,
-            Ink::Normal,
-            Ink::Root,
-            Ink::Scrub,
+            FigureInk::Behind,
+            FigureInk::Circle,
+            FigureInk::Ray,
+            FigureInk::Tangent,
+            FigureInk::Normal,
+            FigureInk::Root,
+            FigureInk::Scrub,
         ];
         let all = roles.into_iter().chain(classes.map(Role::Verdict));
         let all = all.chain(inks.map(Role::Ink)).map(|r| theme.role(r));

@@ -8,7 +8,7 @@ use crate::explorer::edit::document::Change;
 
 /// One number of a sphere or of the camera.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Field {
+pub enum NumberField {
     /// A coordinate of the selected sphere's centre.
     Center(usize),
     /// The selected sphere's radius.
@@ -27,7 +27,7 @@ pub enum Field {
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-impl Field {
+impl NumberField {
     /// All fields that a scene has, the selected sphere's first.
     pub fn of(scene: &Scene, selected: Option<usize>) -> Vec<Self> {
         Self::all()
@@ -143,7 +143,7 @@ impl Field {
 pub(crate) fn set_all(
     scene: &Scene,
     selected: Option<usize>,
-    numbers: &[(Field, f32)],
+    numbers: &[(NumberField, f32)],
 ) -> Result<Scene, Invalid> {
     let mut scene = scene.clone();
     for &(field, value) in numbers {

@@ -8,7 +8,7 @@ use crate::explorer::command::Command;
 use crate::explorer::draw::layout::{self, Layout};
 use crate::explorer::draw::pen::Pen;
 use crate::explorer::draw::theme::Theme;
-use crate::explorer::edit::field::{Field, parse_number};
+use crate::explorer::edit::field::{NumberField, parse_number};
 use crate::explorer::key::Key;
 use crate::explorer::mode::line::TypedLine;
 use crate::explorer::mode::overlay::{After, ModeArea, Overlay};
@@ -24,7 +24,7 @@ pub(crate) struct NumbersForm {
 
 impl Overlay for NumbersForm {
     fn press(&mut self, key: Key, state: &mut State) -> After {
-        let fields = Field::of(state.scene(), state.at.sphere);
+        let fields = NumberField::of(state.scene(), state.at.sphere);
         let last = fields.len() - 1;
         self.at = self.at.min(last);
         if let Some(line) = &mut self.typing {
@@ -78,7 +78,7 @@ impl Overlay for NumbersForm {
         };
         pen.frame(area, &title, "");
         let room = layout::inner(area);
-        let fields = Field::of(state.scene(), state.at.sphere);
+        let fields = NumberField::of(state.scene(), state.at.sphere);
         // The list scrolls where it is longer than its room.
         let first = (self.at + 1).saturating_sub(room.height.into());
         let mut cursor = None;
@@ -131,7 +131,7 @@ fn chosen_if(is_chosen: bool) -> CellStyle {
 }
 
 /// Gives a field the number that was typed; false, with a sentence, if it can't have it.
-fn set_typed(state: &mut State, field: Field, text: &str) -> bool {
+fn set_typed(state: &mut State, field: NumberField, text: &str) -> bool {
     let change = parse_number(&field.name(), text)
         .and_then(|value| field.set(state.scene(), state.at.sphere, value));
     match change {
@@ -149,7 +149,7 @@ fn set_typed(state: &mut State, field: Field, text: &str) -> bool {
 /// The numbers as text, a name and a value a line.
 pub(crate) fn numbers(state: &State) -> String {
     let (scene, sphere) = (state.scene(), state.at.sphere);
-    let fields = Field::of(scene, sphere).into_iter();
+    let fields = NumberField::of(scene, sphere).into_iter();
     let values = fields.filter_map(|f| Some((f.name(), f.get(scene, sphere)?)));
     let lines: Vec<_> = values
         .map(|(name, value)| format!("{name} {}\n", Decimal(value)))

@@ -2,7 +2,7 @@
 
 use ratatui::layout::Rect;
 
-use crate::explain::Question;
+use crate::explain::StepQuestion;
 use crate::explorer::draw::large;
 use crate::explorer::draw::layout::text_room;
 use crate::explorer::draw::pen::Pen;
@@ -29,9 +29,9 @@ pub(crate) fn draw(state: &State, pen: &mut Pen<'_>, area: Rect) {
     let y = large::draw(pen, room, room.y + 1, room.height / 4, &step.formula);
     let y = large::draw(pen, room, y + 1, room.height / 2, &format!("= {result}"));
     let question = walk::pending_question(state);
-    let answers = question.map_or_else(String::new, Question::keys);
+    let answers = question.map_or_else(String::new, StepQuestion::keys);
     let small = [
-        (question.map_or("", Question::text), Theme::strong()),
+        (question.map_or("", StepQuestion::text), Theme::strong()),
         (answers.as_str(), Theme::strong()),
         (step.numbers_beside(state.is_hidden()), Theme::faint()),
         (step.why.as_str(), Theme::plain()),

@@ -36,12 +36,12 @@ pub(crate) struct ErrorPanel {
 
 /// The picture that is asked about.
 #[derive(Debug, Clone)]
-struct Subject {
+struct MeasuredPicture {
     scene: Scene,
     rays: Rays,
 }
 
-impl Subject {
+impl MeasuredPicture {
     /// Whether another picture asks the same questions.
     fn is(&self, scene: &Scene, rays: &Rays) -> bool {
         let (mine, others) = (self.scene.bodies.iter(), scene.bodies.iter());
@@ -53,7 +53,7 @@ impl Subject {
 #[derive(Debug)]
 pub(crate) struct Chart {
     pub(crate) report: Benchmark,
-    of: Subject,
+    of: MeasuredPicture,
     /// The document's version and the rays for which `is_stale` was found out.
     seen: Option<(u64, Rays)>,
     /// Whether the screen shows another picture by now.
@@ -63,7 +63,7 @@ pub(crate) struct Chart {
 /// A measurement on its way; it is called off when this is dropped.
 #[derive(Debug)]
 struct Run {
-    of: Subject,
+    of: MeasuredPicture,
     cancel: Arc<AtomicBool>,
     news: Receiver<News>,
     /// Who is before it.
@@ -107,7 +107,7 @@ impl Drop for NewsSender {
 }
 
 impl Run {
-    fn start(of: Subject, queue: BenchQueue, waker: Waker) -> Result<Self, NoChart> {
+    fn start(of: MeasuredPicture, queue: BenchQueue, waker: Waker) -> Result<Self, NoChart> {
         let cancel = Arc::new(AtomicBool::new(false));
         let (sender, news) = mpsc::channel();
         let sender = NewsSender {
@@ -116,7 +116,7 @@ impl Run {
         };
         let (subject, cancelled) = (of.clone(), Arc::clone(&cancel));
         let work = move || {
-            let Subject { scene, rays } = &subject;
+            let MeasuredPicture { scene, rays } = &subject;
             let mut told = None;
             let end = chart(scene, rays, &queue, &cancelled, |wait| {
                 if told != wait {
@@ -297,7 +297,7 @@ impl ErrorPanel {
         }
     }
 
-    fn end(&mut self, of: Subject, end: Result<Benchmark, NoChart>) {
+    fn end(&mut self, of: MeasuredPicture, end: Result<Benchmark, NoChart>) {
         match end {
             Ok(report) => {
                 self.chart = Some(Chart {
@@ -319,7 +319,7 @@ impl ErrorPanel {
             self.refusal = Some(NoChart::Cancelled);
             return;
         }
-        let of = Subject {
+        let of = MeasuredPicture {
             scene: state.scene().clone(),
             rays: state.picture.rays,
         };

@@ -4,13 +4,13 @@
 //! slack for the few roundings of its own evaluation.
 
 use super::error_free::{two_difference, two_square, two_sum};
-use super::real::Real;
+use super::real::WorkingFloat;
 use crate::geometry::vector::{cross, dot};
 use crate::method::Class;
 pub use crate::method::number::Input;
 
 /// u = 2⁻⁵³, the unit roundoff of binary64.
-pub const U: f64 = <f64 as Real>::U;
+pub const U: f64 = <f64 as WorkingFloat>::U;
 
 /// D = Δ/4 with a bound on its error, and what both come from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,7 +31,7 @@ pub struct Discriminant<T> {
 
 /// D by Lagrange's identity, A r² − |o × d|².
 #[inline(always)]
-pub fn discriminant<T: Real>(input: &Input<T>) -> Discriminant<T> {
+pub fn discriminant<T: WorkingFloat>(input: &Input<T>) -> Discriminant<T> {
     let Input { p0, d, center, r } = *input;
     let o = [p0[0] - center[0], p0[1] - center[1], p0[2] - center[2]];
     let a = dot(d, d);
@@ -99,7 +99,7 @@ pub struct Direct<T> {
 
 /// Both roots by (−b ± s)/A: one square root, and one division that need not wait for it.
 #[inline(always)]
-pub fn direct<T: Real>(input: &Input<T>, discriminant: &Discriminant<T>) -> Direct<T> {
+pub fn direct<T: WorkingFloat>(input: &Input<T>, discriminant: &Discriminant<T>) -> Direct<T> {
     let Discriminant { o, a, d, .. } = *discriminant;
     let half_b = dot(o, input.d);
     let inverse = T::of(1.0) / a;
@@ -209,7 +209,10 @@ impl Bounded<f64> {
 /// b, and C with the rounding errors of differences, squares and sums added back: for rays that
 /// start so near the surface that the plain C cancels.
 #[inline(always)]
-pub fn compensated<T: Real>(input: &Input<T>, discriminant: &Discriminant<T>) -> Estimate<T> {
+pub fn compensated<T: WorkingFloat>(
+    input: &Input<T>,
+    discriminant: &Discriminant<T>,
+) -> Estimate<T> {
     let Input { p0, center, d, r } = *input;
     let (x, x_error) = two_difference(p0[0], center[0]);
     let (y, y_error) = two_difference(p0[1], center[1]);
@@ -242,7 +245,7 @@ pub fn compensated<T: Real>(input: &Input<T>, discriminant: &Discriminant<T>) ->
 
 /// Both roots with bounds on their errors, for D > 4 × its error.
 #[inline(always)]
-pub fn roots<T: Real>(estimate: &Estimate<T>) -> Roots<T> {
+pub fn roots<T: WorkingFloat>(estimate: &Estimate<T>) -> Roots<T> {
     let Estimate {
         a,
         half_b,

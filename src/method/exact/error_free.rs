@@ -3,11 +3,11 @@
 //! Exact as long as nothing over- or underflows, which binary32 inputs rule out here. No fused
 //! multiply-add: the bits are the same on every processor, and so is the work.
 
-use super::real::Real;
+use super::real::WorkingFloat;
 
 /// a + b as rounded sum and error (Knuth, Møller).
 #[inline(always)]
-pub fn two_sum<T: Real>(a: T, b: T) -> (T, T) {
+pub fn two_sum<T: WorkingFloat>(a: T, b: T) -> (T, T) {
     let sum = a + b;
     let b_part = sum - a;
     let a_part = sum - b_part;
@@ -16,20 +16,20 @@ pub fn two_sum<T: Real>(a: T, b: T) -> (T, T) {
 
 /// a − b as rounded difference and error.
 #[inline(always)]
-pub fn two_difference<T: Real>(a: T, b: T) -> (T, T) {
+pub fn two_difference<T: WorkingFloat>(a: T, b: T) -> (T, T) {
     two_sum(a, -b)
 }
 
 /// a + b for |a| ≥ |b| or a = 0, as rounded sum and error (Dekker).
 #[inline(always)]
-pub fn fast_two_sum<T: Real>(a: T, b: T) -> (T, T) {
+pub fn fast_two_sum<T: WorkingFloat>(a: T, b: T) -> (T, T) {
     let sum = a + b;
     (sum, b - (sum - a))
 }
 
 /// a·b as rounded product and error (Veltkamp, Dekker).
 #[inline(always)]
-pub fn two_product<T: Real>(a: T, b: T) -> (T, T) {
+pub fn two_product<T: WorkingFloat>(a: T, b: T) -> (T, T) {
     let product = a * b;
     let (a_high, a_low) = split(a);
     let (b_high, b_low) = split(b);
@@ -39,7 +39,7 @@ pub fn two_product<T: Real>(a: T, b: T) -> (T, T) {
 
 /// a² as rounded square and error.
 #[inline(always)]
-pub fn two_square<T: Real>(a: T) -> (T, T) {
+pub fn two_square<T: WorkingFloat>(a: T) -> (T, T) {
     let square = a * a;
     let (high, low) = split(a);
     let cross = high * low;
@@ -50,7 +50,7 @@ pub fn two_square<T: Real>(a: T) -> (T, T) {
 }
 
 #[inline(always)]
-fn split<T: Real>(a: T) -> (T, T) {
+fn split<T: WorkingFloat>(a: T) -> (T, T) {
     let scaled = T::of(T::SPLITTER) * a;
     let high = scaled - (scaled - a);
     (high, a - high)

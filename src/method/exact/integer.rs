@@ -217,7 +217,7 @@ impl Midpoint {
 
 /// The quadratic without any rounding, in units of 2^[`UNIT`]; D in units of its square.
 #[derive(Debug, Clone, Copy)]
-pub struct Exact {
+pub struct IntegerQuadratic {
     a: Integer<SINGLE>,
     half_b: Integer<SINGLE>,
     c: Integer<SINGLE>,
@@ -225,7 +225,7 @@ pub struct Exact {
     d: Integer<DOUBLE>,
 }
 
-impl Exact {
+impl IntegerQuadratic {
     /// The quadratic of these binary32 numbers.
     pub fn new(input: &Input<f64>) -> Self {
         let p0 = input.p0.map(Single::new);
@@ -276,7 +276,7 @@ impl Exact {
     }
 }
 
-impl Quadratic for Exact {
+impl Quadratic for IntegerQuadratic {
     fn discriminant(&self) -> Option<Ordering> {
         Some(self.d.sign())
     }
@@ -298,7 +298,7 @@ impl Quadratic for Exact {
     }
 }
 
-impl Signs for Exact {
+impl Signs for IntegerQuadratic {
     fn of_value(&self, m: f64) -> Option<Ordering> {
         Some(self.value(m))
     }

@@ -21,7 +21,7 @@ pub trait Inputs {
 
 /// What binary64 found of each lane. Where `open`, the rest has no meaning.
 #[derive(Debug, Clone, Copy)]
-pub struct Block {
+pub struct LaneAnswers {
     /// Miss or secant.
     pub class: [Class; LANES],
     /// The smaller root, NaN for a miss.
@@ -36,7 +36,7 @@ pub struct Block {
 
 /// Class and roots of the lanes of a block.
 #[inline(always)]
-pub fn solve(inputs: &impl Inputs) -> Block {
+pub fn solve(inputs: &impl Inputs) -> LaneAnswers {
     let mut block = direct(inputs);
     if block.open.iter().filter(|&&open| open).count() >= WORTH_A_PASS {
         compensate(inputs, &mut block);
@@ -68,7 +68,7 @@ pub fn classes(inputs: &impl Inputs) -> ([Class; LANES], [bool; LANES]) {
 
 /// Stage 1, as the single call runs it.
 #[inline(always)]
-fn direct(inputs: &impl Inputs) -> Block {
+fn direct(inputs: &impl Inputs) -> LaneAnswers {
     let [mut d, mut threshold, mut d_error, mut limit] = [[0.0; LANES]; 4];
     let [mut near, mut near_too, mut far, mut far_too] = [[0.0; LANES]; 4];
     for i in 0..LANES {
@@ -83,7 +83,7 @@ fn direct(inputs: &impl Inputs) -> Block {
         [far[i], far_too[i]] = direct.far.map(round);
     }
 
-    let mut block = Block {
+    let mut block = LaneAnswers {
         class: [Class::Secant; LANES],
         near,
         far,
@@ -113,7 +113,7 @@ fn places(near: f32, far: f32) -> bool {
 
 /// Settles those of the open lanes that the compensated C can settle.
 #[inline(always)]
-fn compensate(inputs: &impl Inputs, block: &mut Block) {
+fn compensate(inputs: &impl Inputs, block: &mut LaneAnswers) {
     let [mut d, mut threshold] = [[0.0; LANES]; 2];
     let [mut near, mut near_too, mut far, mut far_too] = [[0.0; LANES]; 4];
     for i in 0..LANES {

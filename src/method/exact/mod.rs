@@ -29,7 +29,7 @@ use super::{Class, Coefficients, Place, Precision, Solution, Which};
 use crate::geometry::{Ray, Sphere};
 pub(super) use binary64::Input;
 use double_double::Doubled;
-use integer::Exact;
+use integer::IntegerQuadratic;
 use rounding::Quadratic;
 use whole::Whole;
 
@@ -221,7 +221,7 @@ fn place(input: &Input<f64>) -> Place {
 fn exact_estimate(input: &Input<f64>) -> Estimate<f64> {
     match Whole::of(input) {
         Some(whole) => whole.estimate(),
-        None => Exact::new(input).estimate(),
+        None => IntegerQuadratic::new(input).estimate(),
     }
 }
 
@@ -405,7 +405,7 @@ fn double_double(input: &Input<f64>, open: &Answer) -> Findings {
 
 #[inline(never)]
 fn integer(input: &Input<f64>, open: &Answer) -> Findings {
-    ask_for_signs(Stage::Integer, &Exact::new(input), open)
+    ask_for_signs(Stage::Integer, &IntegerQuadratic::new(input), open)
 }
 
 /// What a stage that can answer questions of sign knows of the parts still open.

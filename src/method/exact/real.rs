@@ -1,12 +1,12 @@
 //! The numbers that stage 1 runs on: binary64, or in tests a format so small that all its inputs
 //! can be tried.
 //!
-//! Stage 1 is written once over [`Real`], its constants in units of the format's roundoff.
+//! Stage 1 is written once over [`WorkingFloat`], its constants in units of the format's roundoff.
 
 use crate::number::Number;
 
 /// A floating-point format whose operations round to nearest.
-pub trait Real: Number {
+pub trait WorkingFloat: Number {
     /// u, the unit roundoff: half the distance from 1 to the next number.
     const U: f64;
     /// ε: how far a direct root may be from the exact one, relatively, where it is certain.
@@ -21,7 +21,7 @@ pub trait Real: Number {
     fn copysign(self, other: Self) -> Self;
 }
 
-impl Real for f64 {
+impl WorkingFloat for f64 {
     const U: f64 = f64::EPSILON / 2.0;
     /// 2⁻³⁶.
     const DIRECT_ERROR: f64 = 131_072.0 * Self::U;

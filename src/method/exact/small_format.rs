@@ -11,7 +11,7 @@
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::binary64::{self, Bounded, Discriminant, Estimate, Input, Roots};
-use super::real::Real;
+use super::real::WorkingFloat;
 use crate::method::Class;
 use crate::number::Number;
 
@@ -75,7 +75,7 @@ impl<const P: u32> Number for Small<P> {
     }
 }
 
-impl<const P: u32> Real for Small<P> {
+impl<const P: u32> WorkingFloat for Small<P> {
     const U: f64 = 1.0 / (1_u64 << P) as f64;
     /// As far above u as leaves the roundings that the derivation counts as a part of ε small.
     const DIRECT_ERROR: f64 = 64.0 * Self::U;

@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 
 use super::loss::{self, Loss};
-use super::{Measured, Quantity, Step};
+use super::{Measured, Quantity, TraceStep};
 use crate::method::Precision;
 use crate::method::format::Shortest;
 use crate::method::number::Input;
@@ -14,7 +14,7 @@ use crate::text::Glyphs;
 
 /// What a step says of itself, the numbers apart.
 #[derive(Debug, Clone, Copy)]
-pub(in crate::method) struct Line {
+pub(in crate::method) struct StepText {
     /// What the result is called.
     pub symbol: &'static str,
     /// How it is computed.
@@ -30,7 +30,7 @@ pub(in crate::method) struct Line {
 /// The steps so far.
 pub(in crate::method) struct Steps<'t> {
     tape: &'t Tape,
-    list: Vec<Step>,
+    list: Vec<TraceStep>,
     /// What each named quantity puts into a template.
     texts: HashMap<String, String>,
     /// The named quantities on the tape.
@@ -38,7 +38,7 @@ pub(in crate::method) struct Steps<'t> {
 }
 
 /// From the centre to where the ray starts.
-pub(in crate::method) const O: Line = Line {
+pub(in crate::method) const O: StepText = StepText {
     symbol: "o",
     formula: "p0 − c",
     template: "{p0} − {c}",
@@ -47,7 +47,7 @@ pub(in crate::method) const O: Line = Line {
 };
 
 /// A.
-pub(in crate::method) const A: Line = Line {
+pub(in crate::method) const A: StepText = StepText {
     symbol: "A",
     formula: "d·d",
     template: "{d.x}² + {d.y}² + {d.z}²",
@@ -56,7 +56,7 @@ pub(in crate::method) const A: Line = Line {
 };
 
 /// |o|².
-pub(in crate::method) const OO: Line = Line {
+pub(in crate::method) const OO: StepText = StepText {
     symbol: "|o|²",
     formula: "o·o",
     template: "{o.x}² + {o.y}² + {o.z}²",
@@ -65,7 +65,7 @@ pub(in crate::method) const OO: Line = Line {
 };
 
 /// r².
-pub(in crate::method) const RR: Line = Line {
+pub(in crate::method) const RR: StepText = StepText {
     symbol: "r²",
     formula: "r·r",
     template: "{r}²",
@@ -74,7 +74,7 @@ pub(in crate::method) const RR: Line = Line {
 };
 
 /// C.
-pub(in crate::method) const C: Line = Line {
+pub(in crate::method) const C: StepText = StepText {
     symbol: "C",
     formula: "|o|² − r²",
     template: "{|o|²} − {r²}",
@@ -101,19 +101,19 @@ impl<'t> Steps<'t> {
     }
 
     /// The steps in order.
-    pub fn finish(self) -> Vec<Step> {
+    pub fn finish(self) -> Vec<TraceStep> {
         self.list
     }
 
     /// A step that gives a number.
-    pub fn scalar<F: Float>(&mut self, line: Line, value: Traced<'t, F>) {
+    pub fn scalar<F: Float>(&mut self, line: StepText, value: Traced<'t, F>) {
         let losses = self.losses(&[value]);
         self.name(line.symbol, value, text);
         self.push(line, Quantity::Scalar(measured(value)), losses);
     }
 
     /// A step that gives a vector.
-    pub fn vector<F: Float>(&mut self, line: Line, value: [Traced<'t, F>; 3]) {
+    pub fn vector<F: Float>(&mut self, line: StepText, value: [Traced<'t, F>; 3]) {
         let losses = self.losses(&value);
         self.name_vector(line.symbol, value, text);
         self.push(
@@ -125,7 +125,7 @@ impl<'t> Steps<'t> {
 
     /// A step that gives a root. The exact value is that of the root itself, whatever branch the
     /// rounded numbers took.
-    pub fn root<F: Float>(&mut self, line: Line, value: Traced<'t, F>, exact: Option<Surd>) {
+    pub fn root<F: Float>(&mut self, line: StepText, value: Traced<'t, F>, exact: Option<Surd>) {
         let losses = self.losses(&[value]);
         self.name(line.symbol, value, text);
         let root = Measured {
@@ -136,7 +136,7 @@ impl<'t> Steps<'t> {
     }
 
     /// A step that rounds a root to binary32.
-    pub fn rounded(&mut self, line: Line, value: f32, exact: Option<Surd>) {
+    pub fn rounded(&mut self, line: StepText, value: f32, exact: Option<Surd>) {
         let root = Measured {
             value: value.into(),
             precision: Precision::Binary32,
@@ -145,8 +145,8 @@ impl<'t> Steps<'t> {
         self.push(line, Quantity::Scalar(root), Vec::new());
     }
 
-    fn push(&mut self, line: Line, result: Quantity, losses: Vec<Loss>) {
-        self.list.push(Step {
+    fn push(&mut self, line: StepText, result: Quantity, losses: Vec<Loss>) {
+        self.list.push(TraceStep {
             symbol: line.symbol,
             formula: line.formula,
             numbers: self.fill(line.template),
@@ -229,7 +229,7 @@ impl<'t> Steps<'t> {
         found
     }
 
-    fn operand<F: Float>(&self, operand: Operand) -> loss::Operand {
+    fn operand<F: Float>(&self, operand: Operand) -> loss::LossOperand {
         let (value, exact, name) = match operand {
             Operand::Constant(value) => (value, true, None),
             Operand::Entry(place) => {
@@ -240,7 +240,7 @@ impl<'t> Steps<'t> {
                 (value, exact, self.names.get(&place))
             }
         };
-        loss::Operand {
+        loss::LossOperand {
             label: name.cloned().unwrap_or_else(|| number::<F>(value)),
             named: name.is_some(),
             value,

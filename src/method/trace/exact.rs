@@ -1,8 +1,8 @@
 //! The derivation of `exact`: the record of the run that gave the answer, stage by stage. Nothing
 //! is computed here but the exact values that stand beside.
 
-use super::loss::{self, Loss, Operand};
-use super::{Measured, Quantity, Step};
+use super::loss::{self, Loss, LossOperand};
+use super::{Measured, Quantity, TraceStep};
 use crate::geometry::{Ray, Sphere};
 use crate::method::Precision;
 use crate::method::dyadic::Dyadic;
@@ -17,7 +17,7 @@ use crate::text::Glyphs;
 const GLYPHS: Glyphs = Glyphs::Unicode;
 
 /// The steps of stage 1, a step for each stage that was asked after it, and the answer.
-pub(in crate::method) fn steps(ray: &Ray, sphere: &Sphere, truth: &Truth) -> Vec<Step> {
+pub(in crate::method) fn steps(ray: &Ray, sphere: &Sphere, truth: &Truth) -> Vec<TraceStep> {
     let record = exact::record(ray, sphere);
     let mut steps = discriminant_steps(ray, sphere, truth, &record);
     steps.push(sign_step(&record.discriminant));
@@ -32,7 +32,12 @@ pub(in crate::method) fn steps(ray: &Ray, sphere: &Sphere, truth: &Truth) -> Vec
     steps
 }
 
-fn discriminant_steps(ray: &Ray, sphere: &Sphere, truth: &Truth, record: &Record) -> Vec<Step> {
+fn discriminant_steps(
+    ray: &Ray,
+    sphere: &Sphere,
+    truth: &Truth,
+    record: &Record,
+) -> Vec<TraceStep> {
     let Discriminant {
         o, a, ar2, k2, d, ..
     } = record.discriminant;
@@ -49,7 +54,7 @@ fn discriminant_steps(ray: &Ray, sphere: &Sphere, truth: &Truth, record: &Record
     let r = binary32(sphere.radius, GLYPHS);
     let o_text = format!("({}, {}, {})", text(o[0]), text(o[1]), text(o[2]));
     vec![
-        Step {
+        TraceStep {
             symbol: "o",
             formula: "p0 − c",
             numbers: format!("{p0} − {c}"),
@@ -79,7 +84,7 @@ fn discriminant_steps(ray: &Ray, sphere: &Sphere, truth: &Truth, record: &Record
             "let k2 = dot(k, k);",
             "The length of d times the distance at which the line passes the centre, squared.",
         ),
-        Step {
+        TraceStep {
             losses: difference_loss(
                 d,
                 ("A·r²", &measured(ar2, Some(exact_ar2.into()))),
@@ -101,7 +106,7 @@ fn discriminant_steps(ray: &Ray, sphere: &Sphere, truth: &Truth, record: &Record
 
 /// What the difference of two numbers in binary64 lost.
 fn difference_loss(value: f64, first: (&str, &Measured), second: (&str, &Measured)) -> Vec<Loss> {
-    let operands = [first, second].map(|(label, number)| Operand {
+    let operands = [first, second].map(|(label, number)| LossOperand {
         label: label.to_owned(),
         named: true,
         value: number.value,
@@ -112,7 +117,7 @@ fn difference_loss(value: f64, first: (&str, &Measured), second: (&str, &Measure
 }
 
 /// Whether stage 1 knows the sign of D.
-fn sign_step(discriminant: &Discriminant<f64>) -> Step {
+fn sign_step(discriminant: &Discriminant<f64>) -> TraceStep {
     let [d, bound] = [discriminant.d.abs(), discriminant.d_error];
     let (than, verdict) = match discriminant.class() {
         Some(_) => (">", "the sign of D is certain"),
@@ -136,7 +141,7 @@ fn root_steps(
     truth: &Truth,
     discriminant: &Discriminant<f64>,
     direct: &Direct<f64>,
-) -> [Step; 4] {
+) -> [TraceStep; 4] {
     let d = ray
         .direction
         .to_array()
@@ -165,7 +170,7 @@ fn root_steps(
         } else {
             "but how near that is is open".to_owned()
         };
-        Step {
+        TraceStep {
             losses: losses(sign),
             ..scalar(
                 (
@@ -217,7 +222,7 @@ fn root_steps(
 }
 
 /// A stage after the first: what it found and settled.
-fn stage_step(truth: &Truth, record: &Record, found: &Findings) -> Step {
+fn stage_step(truth: &Truth, record: &Record, found: &Findings) -> TraceStep {
     let (symbol, why, code) = match found.stage {
         Stage::Binary64 | Stage::Unrounded => (
             "D, unrounded",
@@ -269,7 +274,7 @@ fn stage_step(truth: &Truth, record: &Record, found: &Findings) -> Step {
 }
 
 /// The roots in binary32, each with the stage that was sure of it.
-fn answer_steps(truth: &Truth, record: &Record) -> [Step; 2] {
+fn answer_steps(truth: &Truth, record: &Record) -> [TraceStep; 2] {
     let solution = record.solution;
     [
         ("near", solution.near, truth.near(), record.stages.near),
@@ -310,8 +315,8 @@ fn scalar(
     result: Measured,
     code: &'static str,
     why: &'static str,
-) -> Step {
-    Step {
+) -> TraceStep {
+    TraceStep {
         symbol,
         formula,
         numbers,

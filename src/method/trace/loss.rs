@@ -81,7 +81,7 @@ impl Loss {
 }
 
 /// An operand with all that a loss may depend on.
-pub(super) struct Operand {
+pub(super) struct LossOperand {
     /// Its name, or its value as text.
     pub label: String,
     /// Whether it is a quantity with a name.
@@ -93,7 +93,7 @@ pub(super) struct Operand {
 }
 
 /// What the operation of an entry lost, if anything that is worth a word.
-pub(super) fn of(entry: &Entry, operands: &[Operand], precision: Precision) -> Option<Loss> {
+pub(super) fn of(entry: &Entry, operands: &[LossOperand], precision: Precision) -> Option<Loss> {
     of_operation(entry.operation?, entry.value, operands, precision)
 }
 
@@ -101,10 +101,10 @@ pub(super) fn of(entry: &Entry, operands: &[Operand], precision: Precision) -> O
 pub(super) fn of_operation(
     operation: Operation,
     value: f64,
-    operands: &[Operand],
+    operands: &[LossOperand],
     precision: Precision,
 ) -> Option<Loss> {
-    let loss = |kind, operands: [&Operand; 2]| Loss {
+    let loss = |kind, operands: [&LossOperand; 2]| Loss {
         kind,
         operands: operands.map(|o| o.label.clone()),
         of: precision.bits(),
@@ -157,7 +157,7 @@ pub(super) fn of_operation(
 }
 
 /// The result of the operation on the operands as they are, not rounded.
-fn local_result(operation: Operation, operands: &[Operand]) -> Option<Surd> {
+fn local_result(operation: Operation, operands: &[LossOperand]) -> Option<Surd> {
     let exact: Vec<Surd> = operands
         .iter()
         .map(|o| Surd::from_f64(o.value))
