@@ -1,6 +1,6 @@
 //! Rays and spheres: plain data in binary32, checked where it comes in.
 //!
-//! Nothing is computed here but sums of vectors. The quadratic lives in [`crate::method`].
+//! Nothing is computed here but sums and products of vectors. The quadratic lives in [`crate::method`].
 
 pub mod vector;
 

@@ -2,7 +2,7 @@
 //!
 //! State changes in [`Explorer::update`] and nowhere else. [`Explorer::prepare`] brings the picture
 //! up to date for a screen size, [`Explorer::draw`] reads and writes cells. No terminal is in here:
-//! a test, a terminal and a network connection drive the same code.
+//! a test, a terminal and a reader of lines drive the same code.
 //!
 //! `whole` puts the parts together: `state` is what they share, `panel` has a file for each panel,
 //! `mode` one for each thing that opens over the screen, `tour` the pages of the tour, `edit` what

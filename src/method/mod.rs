@@ -1,7 +1,7 @@
 //! The quadratic At² + Bt + C = 0, and the ways to evaluate it in floating point.
 //!
-//! The rest of the program asks a [`Method`] and gets a [`Solution`]; it never works the formula
-//! itself. Each method has a file of its own.
+//! The rest of the program asks a [`Method`] and gets a [`Solution`]. The renderer alone also has a
+//! test of its own, which decides only what `exact` is proven to say. Each method has a file of its own.
 
 pub mod batch;
 mod citardauq;
