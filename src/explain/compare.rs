@@ -4,7 +4,7 @@ use super::figure::{Float, bits};
 use super::panel::{Line, Role, unit_lines};
 use crate::method::Precision;
 use crate::method::trace::{Measured, Trace, error_text};
-use crate::text::{Glyphs, wrap};
+use crate::text::Glyphs;
 
 /// Width of a quantity's name.
 const LABEL: usize = 5;
@@ -36,8 +36,7 @@ pub fn comparison(one: &Trace, other: &Trace, width: usize) -> Vec<Line> {
     let verdicts = [one, other].map(|t| t.verdict(Glyphs::Unicode));
     for wrong in verdicts.into_iter().flatten() {
         out.push(Line::new(4));
-        let lines = wrap(&wrong, width).into_iter();
-        out.extend(lines.map(|text| Line::new(0).with(Role::Warning, text)));
+        out.extend(Line::wrapped(&wrong, width, Role::Warning, 0));
     }
     let mut numbers = pairs.into_iter().flat_map(|(_, x, y)| [x, y]).flatten();
     let any_finer = numbers.clone().any(has_own_unit);

@@ -85,6 +85,14 @@ impl Line {
         }
     }
 
+    /// Text in lines of at most `width` characters.
+    pub(super) fn wrapped(text: &str, width: usize, role: Role, spare: u8) -> Vec<Self> {
+        let lines = wrap(text, width).into_iter();
+        lines
+            .map(|text| Self::new(spare).with(role, text))
+            .collect()
+    }
+
     /// A blank line in the place of one that is not there now.
     fn place() -> Self {
         Self {
@@ -223,8 +231,7 @@ pub(super) fn unit_lines(
     let units = [Precision::Binary32, Precision::Binary64].into_iter();
     let words = units.filter(|&p| is_used(p)).map(Precision::unit_in_words);
     words
-        .flat_map(|words| wrap(words, width))
-        .map(|text| Line::new(spare).with(Role::Faint, text))
+        .flat_map(|words| Line::wrapped(words, width, Role::Faint, spare))
         .collect()
 }
 
@@ -486,8 +493,7 @@ fn verdict_lines(subject: &Subject, width: usize, digits: Digits) -> Vec<Line> {
         Line::new(0).with(Role::Verdict(class), clip(verdict, width)),
     ];
     if let Some(wrong) = subject.trace.verdict(GLYPHS) {
-        let lines = wrap(&wrong, width).into_iter();
-        out.extend(lines.map(|text| Line::new(0).with(Role::Warning, text)));
+        out.extend(Line::wrapped(&wrong, width, Role::Warning, 0));
     }
     if class.meets() {
         let [near, far] = [near, far].map(|t| number(t.into(), Precision::Binary32, digits));
@@ -524,8 +530,8 @@ fn wrong_lines(reading: &Reading, width: usize) -> Vec<Line> {
     if more > 0 {
         sentences.push(format!("and {more} more spheres are wrong"));
     }
-    let lines = sentences.iter().flat_map(|sentence| wrap(sentence, width));
-    lines.map(|text| Line::of(Role::Warning, text)).collect()
+    let lines = |sentence: &String| Line::wrapped(sentence, width, Role::Warning, 0);
+    sentences.iter().flat_map(lines).collect()
 }
 
 /// How many of the other spheres that a method gets wrong are named.

@@ -19,7 +19,7 @@ const HIDDEN: &str = "?";
 /// One step, in lines of at most `width` characters.
 pub fn step_lines(step: &Step, width: usize, look: StepLook) -> Vec<Line> {
     let mut out = Vec::new();
-    out.extend(wrapped(&step.why, width, Role::Plain, "", 2));
+    out.extend(hanging(&step.why, width, Role::Plain, "", 2));
     out.push(Line::new(5));
     let name = format!("{} = ", step.name);
     let names_itself = step.formula.contains('=') || step.formula == step.name;
@@ -28,7 +28,7 @@ pub fn step_lines(step: &Step, width: usize, look: StepLook) -> Vec<Line> {
     } else {
         name
     };
-    out.extend(wrapped(
+    out.extend(hanging(
         &format!("{head}{}", step.formula),
         width,
         Role::Formula,
@@ -37,17 +37,17 @@ pub fn step_lines(step: &Step, width: usize, look: StepLook) -> Vec<Line> {
     ));
     let numbers = step.numbers_beside(look.hidden);
     if !numbers.is_empty() {
-        out.extend(wrapped(numbers, width, Role::Plain, lead(numbers), 1));
+        out.extend(hanging(numbers, width, Role::Plain, lead(numbers), 1));
     }
     if look.hidden {
-        out.extend(wrapped(HIDDEN, width, Role::Value, "= ", 0));
+        out.extend(hanging(HIDDEN, width, Role::Value, "= ", 0));
     } else if !step.result.is_empty() {
         let role = if look.changed {
             Role::Changed
         } else {
             Role::Value
         };
-        out.extend(wrapped(&step.result, width, role, lead(&step.result), 0));
+        out.extend(hanging(&step.result, width, role, lead(&step.result), 0));
     }
     if !look.hidden {
         out.extend(loss_lines(step, width));
@@ -56,7 +56,7 @@ pub fn step_lines(step: &Step, width: usize, look: StepLook) -> Vec<Line> {
     let code_tells = look.hidden && (step.question.is_some() || step.numbers_tell);
     if !step.code.is_empty() && !code_tells {
         out.push(Line::new(5));
-        out.extend(wrapped(&step.code, width, Role::Faint, "", 3));
+        out.extend(hanging(&step.code, width, Role::Faint, "", 3));
     }
     out
 }
@@ -74,8 +74,8 @@ fn lead(text: &str) -> &'static str {
 pub fn question_lines(question: StepQuestion, width: usize, glyphs: Glyphs) -> Vec<Line> {
     let mut out = vec![Line::new(4)];
     let text = glyphs.spell(question.text());
-    out.extend(wrapped(&text, width, Role::Label, "", 0));
-    out.extend(wrapped(&question.keys(), width, Role::Plain, "", 0));
+    out.extend(hanging(&text, width, Role::Label, "", 0));
+    out.extend(hanging(&question.keys(), width, Role::Plain, "", 0));
     out
 }
 
@@ -83,7 +83,7 @@ pub fn question_lines(question: StepQuestion, width: usize, glyphs: Glyphs) -> V
 fn loss_lines(step: &Step, width: usize) -> Vec<Line> {
     let mut out = Vec::new();
     if let Some(exact) = &step.exact {
-        out.extend(wrapped(
+        out.extend(hanging(
             &format!("exactly {exact}"),
             width,
             Role::Faint,
@@ -92,15 +92,12 @@ fn loss_lines(step: &Step, width: usize) -> Vec<Line> {
         ));
     }
     for (i, loss) in step.losses.iter().enumerate() {
-        let (role, text) = if step.first_heavy && i == 0 {
-            (
-                Role::Warning,
-                format!("{loss}: the first step to lose much"),
-            )
+        let role = if step.first_heavy && i == 0 {
+            Role::Warning
         } else {
-            (Role::Faint, loss.clone())
+            Role::Faint
         };
-        out.extend(wrapped(&text, width, role, "", 1));
+        out.extend(hanging(loss, width, role, "", 1));
     }
     out
 }
@@ -111,7 +108,7 @@ pub fn step_words(steps: &[Step], width: usize) -> Vec<Line> {
     if wrong.is_empty() {
         return Vec::new();
     }
-    let mut out = wrapped(EXACTLY, width, Role::Faint, "", 4);
+    let mut out = hanging(EXACTLY, width, Role::Faint, "", 4);
     let numbers = || wrong.iter().filter_map(|step| step.number.as_ref());
     out.extend(unit_lines(
         |p| numbers().any(|m| m.precision == p),
@@ -188,7 +185,7 @@ const INDENT: &str = "    ";
 
 /// Text, whose lines stay apart, in lines of at most `width` characters; those after the first stand
 /// under it, and go with it: a sentence that ends in its middle says less than none.
-fn wrapped(text: &str, width: usize, role: Role, lead: &str, spare: u8) -> Vec<Line> {
+fn hanging(text: &str, width: usize, role: Role, lead: &str, spare: u8) -> Vec<Line> {
     let room = width.saturating_sub(lead.chars().count()).max(1);
     text.lines()
         .flat_map(|part| wrap(part, room))

@@ -123,6 +123,15 @@ impl Quantity {
         complete.then(|| self.join(|part| part.exact_text(digits, glyphs).unwrap_or_default()))
     }
 
+    /// What it would be without rounding, and how far off it is; nothing if it is right, or if there is no
+    /// such thing.
+    pub fn error_sentence(&self, digits: usize, glyphs: Glyphs) -> Option<String> {
+        let ulps = self.ulps().filter(|&ulps| ulps != 0.0)?;
+        let exact = self.exact_text(digits, glyphs)?;
+        let off = error_text(ulps, self.precision(), glyphs);
+        Some(format!("{exact}, {off} off"))
+    }
+
     fn join(&self, text: impl Fn(&Measured) -> String) -> String {
         match self {
             Self::Scalar(one) => text(one),
@@ -223,6 +232,17 @@ impl Trace {
         }
     }
 
+    /// What the operations of a step lost, the worst first; the first step to lose much says that it is.
+    pub fn loss_sentences(&self, step: usize, glyphs: Glyphs) -> Vec<String> {
+        let losses = &self.steps[step].losses;
+        let mut sentences: Vec<_> = losses.iter().map(|loss| loss.sentence(glyphs)).collect();
+        if let (true, Some(worst)) = (self.first_heavy_loss() == Some(step), sentences.first_mut())
+        {
+            worst.push_str(": the first step to lose much");
+        }
+        sentences
+    }
+
     /// The step of that symbol.
     pub fn step(&self, symbol: &str) -> Option<&TraceStep> {
         self.steps.iter().find(|step| step.symbol == symbol)
@@ -263,7 +283,6 @@ pub fn write(
     glyphs: Glyphs,
     digits: usize,
 ) -> fmt::Result {
-    let heavy = trace.first_heavy_loss();
     for (i, step) in trace.steps.iter().enumerate() {
         let symbol = glyphs.spell(step.symbol);
         let numbers = glyphs.spell(&step.numbers);
@@ -273,24 +292,13 @@ pub fn write(
         writeln!(out, "{indent} = {}", step.result.text(glyphs))?;
         writeln!(out, "    {}", glyphs.spell(step.why))?;
         writeln!(out, "    {}", step.code)?;
-        match (step.result.ulps(), step.result.exact_text(digits, glyphs)) {
-            (Some(ulps), Some(exact)) if ulps != 0.0 => {
-                writeln!(
-                    out,
-                    "    exactly {exact}, {} off",
-                    error_text(ulps, step.result.precision(), glyphs)
-                )?;
-            }
-            (None, _) => writeln!(out, "    exactly, there is none")?,
-            _ => {}
+        if let Some(error) = step.result.error_sentence(digits, glyphs) {
+            writeln!(out, "    exactly {error}")?;
+        } else if step.result.ulps().is_none() {
+            writeln!(out, "    exactly, there is none")?;
         }
-        for (j, loss) in step.losses.iter().enumerate() {
-            let first = if heavy == Some(i) && j == 0 {
-                ": the first step to lose much"
-            } else {
-                ""
-            };
-            writeln!(out, "    {}{first}", loss.sentence(glyphs))?;
+        for loss in trace.loss_sentences(i, glyphs) {
+            writeln!(out, "    {loss}")?;
         }
         writeln!(out)?;
     }

@@ -233,7 +233,7 @@ fn quadratic_steps(trace: &Trace) -> Vec<Step> {
         result: step.result.text(glyphs),
         code: step.code.into(),
         exact: exact(&step.result),
-        losses: step.losses.iter().map(|l| l.sentence(glyphs)).collect(),
+        losses: trace.loss_sentences(at, glyphs),
         first_heavy: heavy == Some(at),
         question: is_discriminant(step.symbol, trace.method).then_some(StepQuestion::Sign),
         // A later stage of `exact` says what it has settled.
@@ -246,13 +246,7 @@ fn quadratic_steps(trace: &Trace) -> Vec<Step> {
 
 /// What a result would be without rounding, and how far off it is; nothing if it is right.
 fn exact(result: &Quantity) -> Option<String> {
-    let glyphs = Glyphs::Unicode;
-    let ulps = result.ulps().filter(|&ulps| ulps != 0.0)?;
-    let exact = result.exact_text(12, glyphs)?;
-    Some(format!(
-        "{exact}, {} off",
-        trace::error_text(ulps, result.precision(), glyphs)
-    ))
+    result.error_sentence(12, Glyphs::Unicode)
 }
 
 /// Whether the sign of the step of that symbol decides the class.

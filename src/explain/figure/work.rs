@@ -16,7 +16,7 @@ use crate::explain::{Line, Role};
 use crate::lab::bench::text::{brief, settled_by};
 use crate::lab::bench::{MeasuredMethod, MeasuredSet};
 use crate::lab::chart::{Scale, WorkPoint, best, work_points};
-use crate::text::{self, Glyphs};
+use crate::text::Glyphs;
 
 /// The lowest chart that says more than its table.
 const LEAST_ROWS: usize = 7;
@@ -159,8 +159,8 @@ fn table(set: &MeasuredSet, cols: usize) -> Vec<Line> {
 /// Which stages of `exact` settled how many of the questions.
 fn stages(set: &MeasuredSet, cols: usize) -> Vec<Line> {
     let settled = set.rows.iter().filter_map(settled_by);
-    let lines = settled.flat_map(|text| text::wrap(&text, cols));
-    lines.map(|text| Line::of(Role::Faint, text)).collect()
+    let lines = settled.flat_map(|text| Line::wrapped(&text, cols, Role::Faint, 0));
+    lines.collect()
 }
 
 /// The scales of the chart: log₂ of the error in ulp, log₂ of nanoseconds.
