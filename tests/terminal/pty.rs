@@ -320,6 +320,12 @@ impl Pty {
         }
     }
 
+    /// Reads what comes in this time.
+    pub fn reads_for(&mut self, time: Duration) {
+        let end = Instant::now() + time;
+        while Instant::now() < end && self.takes(Duration::from_millis(5)) {}
+    }
+
     pub fn waits_to_show(&mut self, text: &str) {
         self.waits_for(&format!("“{text}”"), |p| p.shows(text));
     }
