@@ -468,15 +468,15 @@ fn turns(pty: &mut Pty, end: &[u8]) -> usize {
 }
 
 /// Turns the camera until a frame has to wait, for answers that do not come: as many frames as may
-/// be on their way go out first.
-fn turns_until_held(pty: &mut Pty) {
-    for _ in 0..32 {
+/// be on their way go out first. How many turns that took.
+fn turns_until_held(pty: &mut Pty) -> usize {
+    for turn in 1..=32 {
         let queries = pty.occurrences(QUERY);
         pty.sends("d");
         // That frames wait for long is what is tested.
         pty.reads_for(std::time::Duration::from_millis(200));
         if pty.occurrences(QUERY) == queries {
-            return;
+            return turn;
         }
     }
     panic!("no frame has to wait");
@@ -495,12 +495,12 @@ fn on_a_slow_link_the_picture_is_coarse_until_the_person_rests() {
     pty.answers_nothing();
     turns(&mut pty, QUERY);
     // After the first wait the link may only have stalled.
-    turns_until_held(&mut pty);
+    let mut count = 2 + turns_until_held(&mut pty);
     let queries = pty.occurrences(QUERY);
     pty.answers_late();
     pty.waits_for("a frame", |p| p.occurrences(QUERY) > queries);
     assert!(!pty.shows("coarse"));
-    turns_until_held(&mut pty);
+    count += turns_until_held(&mut pty);
     pty.answers_again();
     let length = pty.bytes().len();
     pty.waits_to_show("coarse");
@@ -515,7 +515,7 @@ fn on_a_slow_link_the_picture_is_coarse_until_the_person_rests() {
     pty.waits_for("the detail", |p| !p.shows("coarse"));
 
     let mut fast = Pty::explorer(start());
-    for _ in 0..4 {
+    for _ in 0..count {
         turns(&mut fast, QUERY);
         assert!(!fast.shows("coarse"));
     }
