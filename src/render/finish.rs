@@ -5,7 +5,7 @@ use super::bounds::Bounds;
 use super::field::Field;
 use super::lanes::{LANES, Lanes, Real, sub};
 use super::layer::{ASKED, Contact, Layer, NOBODY};
-use super::plan::{Counts, Plan, Way};
+use super::plan::{Counts, Plan, Strategy};
 use super::search::Found;
 use super::shade::{Hit, Spot};
 use super::view::View;
@@ -30,7 +30,7 @@ pub(super) fn finish(
     found: &mut Found,
     truth: &mut Found,
 ) {
-    let is_certified = plan.way() == Way::Certified;
+    let is_certified = plan.way() == Strategy::Certified;
     match plan.view() {
         View::Depth if is_certified => {
             round_roots(scope, &mut found.layer, part, &mut plan.counts);

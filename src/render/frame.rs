@@ -13,7 +13,7 @@ use super::field::Field;
 use super::finish::{Scope, finish};
 use super::layer::Contact;
 use super::memory::{MOST, Memory};
-use super::plan::{Plan, Way};
+use super::plan::{Plan, Strategy};
 use super::projected::is_before;
 use super::projector::Projector;
 use super::search::{Found, Question, Room};
@@ -180,7 +180,7 @@ impl Frame {
 
     /// Whether the roots that are seen are only about where the method has them.
     fn roots_are_rough(&self) -> bool {
-        self.plan.way() == Way::Certified && !self.plan.view().shows_roots()
+        self.plan.way() == Strategy::Certified && !self.plan.view().shows_roots()
     }
 
     /// Works out within these parts what the view shows of what was found.

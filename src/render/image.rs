@@ -94,7 +94,7 @@ impl Image {
         across: Range<u32>,
         down: Range<u32>,
     ) {
-        let mut painter = Painter {
+        let mut painter = ImagePainter {
             frame,
             scene,
             look,
@@ -147,14 +147,14 @@ fn cells_within(part: Bounds, style: Style) -> (Range<u32>, Range<u32>) {
     (left..right, top..bottom)
 }
 
-struct Painter<'a> {
+struct ImagePainter<'a> {
     frame: &'a Frame,
     scene: &'a Scene,
     look: Look,
     ramps: &'a mut Ramps,
 }
 
-impl Painter<'_> {
+impl ImagePainter<'_> {
     fn cell(&mut self, col: u32, row: u32) -> Cell {
         let (x, y) = self.look.style.pixel_of_cell(col, row);
         match self.look.style {

@@ -36,7 +36,7 @@ pub use image::{Cell, Image};
 pub use ink::RAMP;
 pub use layer::Contact;
 pub use look::Look;
-pub use plan::{Counts, Plan, Way};
+pub use plan::{Counts, Plan, Strategy};
 pub use shade::AMBIENT;
 pub use style::{CELL_ASPECT, Style, fit};
 pub use view::View;

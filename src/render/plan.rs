@@ -14,7 +14,7 @@ use crate::scene::{Body, Light, Rays, Scene, Size};
 
 /// How the spheres are asked about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Way {
+pub enum Strategy {
     /// `exact`: where a sphere can be seen, by a test with a bound on its error, and the method
     /// itself where that leaves the answer open.
     Certified,
@@ -29,7 +29,7 @@ pub enum Way {
 /// Which rays of a frame are of interest, of each sphere.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Interest {
-    pub way: Way,
+    pub way: Strategy,
     pub view: View,
 }
 
@@ -38,13 +38,13 @@ impl Interest {
     #[inline(always)]
     pub(super) fn reach(self, least: f32) -> Reach {
         match (self.way, self.view) {
-            (Way::Everything, _) => Reach::Everything,
+            (Strategy::Everything, _) => Reach::Everything,
             // This view shows what lies behind the eye, too.
-            (Way::Certified, View::Class) if least == 0.0 => Reach::Lines(1.0),
-            (Way::Certified, _) => Reach::Seen,
+            (Strategy::Certified, View::Class) if least == 0.0 => Reach::Lines(1.0),
+            (Strategy::Certified, _) => Reach::Seen,
             // Lines that pass within two radii are shown.
-            (Way::Widened, View::Delta) => Reach::Lines(2.0),
-            (Way::Widened, _) => Reach::Lines(1.0),
+            (Strategy::Widened, View::Delta) => Reach::Lines(2.0),
+            (Strategy::Widened, _) => Reach::Lines(1.0),
         }
     }
 
@@ -144,7 +144,7 @@ pub struct Plan {
     size: Size,
     method: Method,
     view: View,
-    way: Way,
+    way: Strategy,
     perspective: bool,
     /// Whether b = o·d is the same for all rays of a sphere.
     constant_b: bool,
@@ -173,11 +173,11 @@ impl Plan {
             _ => method,
         };
         let way = match (method, view) {
-            (_, View::Delta | View::Stage) => Way::Widened,
-            (Method::Exact, _) => Way::Certified,
-            _ => Way::Widened,
+            (_, View::Delta | View::Stage) => Strategy::Widened,
+            (Method::Exact, _) => Strategy::Certified,
+            _ => Strategy::Widened,
         };
-        let asks_no_depth = way == Way::Certified && view.shows_only_contours();
+        let asks_no_depth = way == Strategy::Certified && view.shows_only_contours();
         Self {
             size: rays.size,
             method,
@@ -196,7 +196,7 @@ impl Plan {
     /// The plan that leaves out nothing.
     pub(super) fn of_everything(scene: &Scene, rays: &Rays, method: Method, view: View) -> Self {
         Self {
-            way: Way::Everything,
+            way: Strategy::Everything,
             ..Self::new(scene, rays, false, method, view)
         }
     }
@@ -212,7 +212,7 @@ impl Plan {
     }
 
     /// How the spheres are asked about.
-    pub const fn way(&self) -> Way {
+    pub const fn way(&self) -> Strategy {
         self.way
     }
 
@@ -272,7 +272,7 @@ impl Plan {
 
     /// Whether the method is held to what `exact` sees, which has to be found too.
     pub(super) const fn compares(&self) -> bool {
-        let asks_exact = matches!(self.way, Way::Certified);
+        let asks_exact = matches!(self.way, Strategy::Certified);
         matches!(self.view, View::Lost) && !asks_exact
     }
 

@@ -17,7 +17,7 @@ use super::delta::{FARTHEST_MISS, normalised_discriminant};
 use super::field::{Field, TILE};
 use super::lanes::{SINGLES, cross, dot, sub};
 use super::layer::{Layer, refill};
-use super::plan::{Counts, Interest, Plan, Way};
+use super::plan::{Counts, Interest, Plan, Strategy};
 use super::projected::{Projected, SAME, is_before};
 use super::projector::{Projector, Reach, Spans};
 use super::view::View;
@@ -66,8 +66,8 @@ impl<'a> Question<'a> {
     /// The same asked of `exact`, to hold the method to it.
     pub(super) fn of_exact(self) -> Self {
         let way = match self.interest.way {
-            Way::Everything => Way::Everything,
-            _ => Way::Certified,
+            Strategy::Everything => Strategy::Everything,
+            _ => Strategy::Certified,
         };
         Self {
             method: Method::Exact,
@@ -99,7 +99,7 @@ impl<'a> Question<'a> {
     }
 
     fn is_certified(&self) -> bool {
-        self.interest.way == Way::Certified
+        self.interest.way == Strategy::Certified
     }
 
     fn sphere(&self, number: u32) -> &'a Sphere {
@@ -592,7 +592,7 @@ impl Chunk<'_> {
     fn ask_all<const PERSPECTIVE: bool, const ROOTS: bool>(&mut self) {
         let question = self.question;
         let is_certified = question.is_certified();
-        let leaves_out = question.interest.way != Way::Everything;
+        let leaves_out = question.interest.way != Strategy::Everything;
         let mut last = None;
         for place in 0..self.room.windows.in_order().len() {
             let i = self.room.windows.in_order()[place] as usize;

@@ -48,26 +48,26 @@ impl Style {
     }
 
     /// The least block of whole cells that holds whole pixels.
-    const fn block(self) -> Block {
+    const fn block(self) -> GlyphBlock {
         let (cells, pixels) = match self {
             Self::Half => (1, [1, 2]),
             Self::Braille => (1, [2, 4]),
             Self::Ascii => (1, [1, 1]),
             Self::Tutorial => (2, [1, 1]),
         };
-        Block { cells, pixels }
+        GlyphBlock { cells, pixels }
     }
 
     /// Columns and rows of cells that a picture of `size` pixels takes.
     pub const fn cells_of(self, size: Size) -> (u32, u32) {
-        let Block { cells, pixels } = self.block();
+        let GlyphBlock { cells, pixels } = self.block();
         let cols = size.width.div_ceil(pixels[0]).saturating_mul(cells);
         (cols, size.height.div_ceil(pixels[1]))
     }
 
     /// The most pixels that fit into `cols` by `rows` cells.
     pub const fn pixels_in(self, cols: u32, rows: u32) -> Size {
-        let Block { cells, pixels } = self.block();
+        let GlyphBlock { cells, pixels } = self.block();
         Size::new(
             (cols / cells).saturating_mul(pixels[0]),
             rows.saturating_mul(pixels[1]),
@@ -76,13 +76,13 @@ impl Style {
 
     /// Column and row of the cell (the left one of two) that shows pixel (x, y).
     pub const fn cell_of_pixel(self, x: u32, y: u32) -> (u32, u32) {
-        let Block { cells, pixels } = self.block();
+        let GlyphBlock { cells, pixels } = self.block();
         ((x / pixels[0]).saturating_mul(cells), y / pixels[1])
     }
 
     /// The top left pixel of the cell in this column and row.
     pub const fn pixel_of_cell(self, col: u32, row: u32) -> (u32, u32) {
-        let Block { cells, pixels } = self.block();
+        let GlyphBlock { cells, pixels } = self.block();
         (
             (col / cells).saturating_mul(pixels[0]),
             row.saturating_mul(pixels[1]),
@@ -92,13 +92,13 @@ impl Style {
     /// How many times as high as wide a pixel is, where a cell is `cell_aspect` times as high as
     /// wide.
     pub fn pixel_aspect(self, cell_aspect: f64) -> f64 {
-        let Block { cells, pixels } = self.block();
+        let GlyphBlock { cells, pixels } = self.block();
         cell_aspect * f64::from(pixels[0]) / (f64::from(pixels[1]) * f64::from(cells))
     }
 }
 
 /// So many cells in a row hold so many pixels across and down.
-struct Block {
+struct GlyphBlock {
     cells: u32,
     pixels: [u32; 2],
 }
@@ -145,7 +145,7 @@ mod tests {
                 for x in 0..9 {
                     let (col, row) = style.cell_of_pixel(x, y);
                     let (left, top) = style.pixel_of_cell(col, row);
-                    let Block { pixels: [w, h], .. } = style.block();
+                    let GlyphBlock { pixels: [w, h], .. } = style.block();
                     assert!((left..left + w).contains(&x) && (top..top + h).contains(&y));
                 }
             }

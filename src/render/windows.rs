@@ -16,7 +16,7 @@ use glam::{DVec3, Vec3};
 use super::bounds::Bounds;
 use super::lanes::{Real, dot, sub};
 use super::layer::refill;
-use super::plan::{Counts, Interest, Way};
+use super::plan::{Counts, Interest, Strategy};
 use super::projected::{GREATEST_REACH, LEAST_REACH, Projected};
 use super::projector::Projector;
 use super::view::View;
@@ -83,7 +83,7 @@ pub(super) struct Lens {
 const BLOCK: usize = 64;
 
 /// Some spheres in arrays, and where they can be seen.
-struct Block {
+struct SphereBlock {
     x: [f32; BLOCK],
     y: [f32; BLOCK],
     z: [f32; BLOCK],
@@ -134,7 +134,12 @@ impl Lens {
     ///
     /// All of it in one loop, without a branch: then it is compiled to vectors.
     #[inline(always)]
-    fn bound<const PERSPECTIVE: bool>(&self, block: &mut Block, part: Bounds, lines_too: bool) {
+    fn bound<const PERSPECTIVE: bool>(
+        &self,
+        block: &mut SphereBlock,
+        part: Bounds,
+        lines_too: bool,
+    ) {
         let [lefts, rights, tops, bottoms] =
             [part.left, part.right, part.top, part.bottom].map(i32::from);
         for i in 0..BLOCK {
@@ -200,7 +205,7 @@ fn nearest(x: f32) -> i32 {
     (x + SHIFT).to_bits() as i32 - SHIFT.to_bits() as i32
 }
 
-impl Block {
+impl SphereBlock {
     const fn new() -> Self {
         const ZEROS: [f32; BLOCK] = [0.0; BLOCK];
         const ZERO: [i32; BLOCK] = [0; BLOCK];
@@ -276,9 +281,9 @@ impl Windows {
         refill(&mut self.bounds, count, Bounds::NONE);
         refill(&mut self.least, count, 0.0);
         refill(&mut self.seen, count, 0);
-        let is_certified = interest.way == Way::Certified;
+        let is_certified = interest.way == Strategy::Certified;
         let lines_too = interest.view == View::Class;
-        let mut block = Block::new();
+        let mut block = SphereBlock::new();
         let mut seen = 0;
         let mut behind = 0;
         for first in (0..count).step_by(BLOCK) {
@@ -361,6 +366,7 @@ impl Windows {
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
+    use proptest::strategy::Strategy;
 
     use super::*;
     use crate::method::Method;
@@ -427,7 +433,7 @@ mod tests {
     }
 
     const SEEN: Interest = Interest {
-        way: Way::Certified,
+        way: super::Strategy::Certified,
         view: View::Shade,
     };
 

@@ -1,10 +1,9 @@
 //! When the next frame may go out: only as fast as the terminal deals with them.
 //!
 //! What is written goes into buffers on its way, of the kernel and of the network, that hold
-//! seconds of frames on a slow link. So each frame ends in a status query, small ones
-//! now and then, and while too much is
-//! unanswered the next frame waits: the state goes on, and the screen follows with the newest of
-//! it. A terminal that answers nothing is written to without asking.
+//! seconds of frames on a slow link. So each large frame ends in a status query, small ones now and
+//! then, and while too much is unanswered the next frame waits: the state goes on, and the screen
+//! follows with the newest of it. A terminal that answers nothing is written to without asking.
 //!
 //! Where frames have to wait for long the next ones are coarse, until nothing has been shown for a while:
 //! see [`Detail`].
@@ -12,14 +11,14 @@
 use std::collections::VecDeque;
 use std::time::{Duration, Instant};
 
-/// Asks the terminal for its status; the answer tells that all before it has been dealt with.
+/// Asks the terminal for its status; the answer says that all before it has been dealt with.
 pub const QUERY: &[u8] = b"\x1b[5n";
 
-/// So many bytes may go out before the next query.
+/// This many bytes may go out before the next query.
 const UNASKED: usize = 1024;
-/// This many bytes may be unanswered when a frame is started: as many as a slow link takes in a moment; up
-/// to this many where answers come as fast as ever although frames wait for them.
+/// This many bytes may be unanswered when a frame is started: what a slow link takes in a moment.
 const WINDOW: usize = 4096;
+/// It grows up to this where answers come as fast as ever although frames wait for them.
 const LARGEST_WINDOW: usize = 16 * WINDOW;
 /// What an answer may take beside the way to and fro and still be fast, and what makes it late.
 const FAST: Duration = Duration::from_millis(25);

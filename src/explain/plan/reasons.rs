@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::method::Method;
 use crate::method::exact::Stage;
-use crate::render::{Counts, Image, Plan, View, Way};
+use crate::render::{Counts, Image, Plan, Strategy, View};
 
 /// One thing that a frame may need.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -62,13 +62,13 @@ impl PlanLine {
 /// How the spheres of a frame are asked about, in a sentence.
 pub const fn plan_sentence(plan: &Plan) -> &'static str {
     match plan.way() {
-        Way::Certified => {
+        Strategy::Certified => {
             "exact is asked where a sphere can be seen, by a test in binary32 with a proven bound on its error"
         }
-        Way::Widened => {
+        Strategy::Widened => {
             "the method itself is asked, at the pixels of spheres that are widened by the error it can make"
         }
-        Way::Everything => "the method itself is asked about every sphere at every pixel",
+        Strategy::Everything => "the method itself is asked about every sphere at every pixel",
     }
 }
 
@@ -93,7 +93,7 @@ fn all_pixels(plan: &Plan) -> u64 {
 }
 
 fn is_certified(plan: &Plan) -> bool {
-    plan.way() == Way::Certified
+    plan.way() == Strategy::Certified
 }
 
 fn pixels(plan: &Plan) -> PlanLine {
@@ -157,9 +157,9 @@ fn before_the_eye(plan: &Plan) -> PlanLine {
 
 fn in_the_picture(plan: &Plan) -> PlanLine {
     let widened = match plan.way() {
-        Way::Certified => "widened by the rounding of the rays",
-        Way::Widened => "widened by the error that the method can make",
-        Way::Everything => "not looked at",
+        Strategy::Certified => "widened by the rounding of the rays",
+        Strategy::Widened => "widened by the error that the method can make",
+        Strategy::Everything => "not looked at",
     };
     let outside = plan.counts().outside;
     let because = format!("the projection, {widened}, has no pixel");
@@ -193,7 +193,7 @@ fn near_roots(plan: &Plan) -> PlanLine {
 fn rows(plan: &Plan) -> PlanLine {
     let all = u64::from(plan.size().height) * plan.spheres();
     let because = match plan.way() {
-        Way::Everything => "nothing is left out",
+        Strategy::Everything => "nothing is left out",
         _ => "outside its rows no ray meets the sphere: the tangent planes through the eye",
     };
     PlanLine::of_all("rows", plan.counts().rows, all, because)
@@ -202,13 +202,13 @@ fn rows(plan: &Plan) -> PlanLine {
 fn spans(plan: &Plan) -> PlanLine {
     let all = all_pixels(plan) * plan.spheres();
     let because = match plan.way() {
-        Way::Certified => {
+        Strategy::Certified => {
             "along a row the discriminant is a quadratic in the column; between its roots lie the hits (spheres under 17 columns: in their box)"
         }
-        Way::Widened => {
+        Strategy::Widened => {
             "between the roots of the row's quadratic, for a radius inflated by the method's proven error"
         }
-        Way::Everything => "nothing is left out",
+        Strategy::Everything => "nothing is left out",
     };
     PlanLine::of_all("columns of rows", plan.counts().spanned, all, because)
 }
@@ -363,7 +363,7 @@ fn stages(plan: &Plan) -> Vec<PlanLine> {
     const NAMES: [&str; Stage::ALL.len()] = [
         "stage 1", "stage 2", "stage 3", "stage 4", "stage 5", "stage 6",
     ];
-    if plan.method() != Method::Exact || plan.way() == Way::Everything {
+    if plan.method() != Method::Exact || plan.way() == Strategy::Everything {
         return Vec::new();
     }
     let counts = &plan.counts().stages;
