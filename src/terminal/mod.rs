@@ -40,7 +40,7 @@ pub enum TerminalInput {
     },
     /// The screen has another size, or shows something else.
     Redraw,
-    /// Somebody woke the loop through [`Session::waker`].
+    /// Somebody woke the loop through the waker.
     Woken,
     /// Somebody wants the whole program to stop until it is told to go on.
     Stop,
