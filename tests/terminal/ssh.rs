@@ -197,7 +197,10 @@ fn a_killed_connection_ends_it_and_loses_nothing() {
     pty.waits_to_show("Unsaved work of");
     pty.sends("o");
     pty.waits_to_show("c    21, 20, 20");
-    pty.sends("qD");
+    pty.sends("q");
+    // An answer that loses work counts once the question has been shown.
+    pty.waits_to_show("D quit without saving");
+    pty.sends("D");
     assert_eq!(pty.ends(), 0);
     pty.is_restored();
 }
