@@ -5,12 +5,17 @@ use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
 
+use rayscope::lab::BenchQueue;
+
 /// A start of the program with nothing in its environment but a home.
 fn rayscope(home: &Path, arguments: &[&str]) -> Command {
+    let queue = BenchQueue::private();
+    let (variable, queue) = queue.variable();
     let mut command = Command::new(env!("CARGO_BIN_EXE_rayscope"));
     command
         .args(arguments)
         .env_clear()
+        .env(variable, queue)
         .env("HOME", home)
         .env("LANG", "C.UTF-8")
         .current_dir(home)
