@@ -101,7 +101,7 @@ pub(super) fn run(arguments: &BenchArgs) -> Outcome {
     })
 }
 
-/// How long a run of so many parts takes about, for those who wait for it.
+/// About how long a run of this many parts takes, for those who wait for it.
 fn length_of(arguments: &BenchArgs, parts: usize) -> Duration {
     let each = if arguments.sweep.quick { 1 } else { 15 };
     Duration::from_secs(each * parts as u64)

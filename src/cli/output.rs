@@ -21,7 +21,7 @@ pub(super) fn write_picture(text: &str) -> Outcome {
     Ok(DONE)
 }
 
-/// What a failed write to standard output means: whoever closed it early has seen enough.
+/// What a failed write to standard output means: a reader that closed it early has seen enough.
 pub(super) fn unwritable(error: &io::Error) -> Result<(), Failure> {
     match error.kind() {
         ErrorKind::BrokenPipe => Ok(()),
