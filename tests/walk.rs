@@ -75,7 +75,8 @@ struct Walk {
     random: Random,
     explorer: Explorer,
     folder: tempfile::TempDir,
-    opened: Scene,
+    /// The scene it began with, until a file is opened: that one may bear the same name.
+    opened: Option<Scene>,
     size: (u16, u16),
     painter: Painter,
     terminal: vt100::Parser,
@@ -107,7 +108,7 @@ impl Walk {
             random,
             explorer,
             folder,
-            opened: builtin.scene(),
+            opened: Some(builtin.scene()),
             size: (80, 24),
             painter: Painter::default(),
             terminal: terminal(80, 24),
@@ -151,6 +152,9 @@ impl Walk {
                 self.press(*code, *modifiers);
             }
             Deed::Command(line) => {
+                if line.starts_with("open") {
+                    self.opened = None;
+                }
                 self.press(KeyCode::Esc, KeyModifiers::NONE);
                 self.press(KeyCode::Char(':'), KeyModifiers::NONE);
                 for c in line.chars() {
@@ -223,6 +227,9 @@ impl Walk {
 
     /// Undo leads back to the scene that was opened, if it is still that one.
     fn goes_back(&mut self) {
+        let Some(opened) = self.opened.clone() else {
+            return;
+        };
         if self.explorer.ended().is_some() {
             return;
         }
@@ -230,17 +237,17 @@ impl Walk {
             self.press(KeyCode::Esc, KeyModifiers::NONE);
         }
         let in_tour = |explorer: &Explorer| explorer.link().is_ok_and(|words| words[0] == "tour");
-        if in_tour(&self.explorer) || self.explorer.scene().name != self.opened.name {
+        if in_tour(&self.explorer) || self.explorer.scene().name != opened.name {
             return;
         }
         for _ in 0..8 * LIFE {
-            if *self.explorer.scene() == self.opened {
+            if *self.explorer.scene() == opened {
                 return;
             }
             self.press(KeyCode::Char('u'), KeyModifiers::NONE);
         }
         assert!(
-            *self.explorer.scene() == self.opened,
+            *self.explorer.scene() == opened,
             "undo does not lead back, seed {}",
             self.seed
         );
