@@ -261,9 +261,9 @@ fn in_ascii_no_step_is_cut_off_and_columns_stay_columns() {
 #[test]
 fn the_cursor_moves_and_stops_at_the_edge() {
     let mut person = Person::opens("tutorial", 80, 24);
-    person.presses("left k shift-down L");
+    person.presses("left k shift-down shift-right");
     assert_eq!(person.explorer.cursor(), (27, 27));
-    person.presses("H H H H H");
+    person.presses("shift-left shift-left shift-left shift-left shift-left");
     assert_eq!(person.explorer.cursor(), (0, 27));
     person.commands("cursor 26 28").shows("Δ = 0");
     assert_eq!(person.explorer.cursor(), (26, 28));
@@ -1360,8 +1360,8 @@ fn any_move() -> impl Strategy<Value = Move> {
         Move::Cursor("left", "right"),
         Move::Cursor("right", "left"),
         Move::Cursor("up", "down"),
-        Move::Cursor("J", "K"),
-        Move::Cursor("L", "H"),
+        Move::Cursor("shift-down", "shift-up"),
+        Move::Cursor("shift-right", "shift-left"),
         Move::Camera("a"),
         Move::Camera("w"),
         Move::Camera("D"),
@@ -1420,14 +1420,10 @@ impl Person {
             Move::Cursor(key, back) => {
                 let before = place(self);
                 self.presses(key);
-                let (after, far) = (place(self), key == key.to_uppercase());
+                let after = place(self);
                 let moved = before.0.abs_diff(after.0) + before.1.abs_diff(after.1);
                 // At the edge of the picture a move is a shorter one, or none.
-                let back = if far {
-                    back.to_lowercase()
-                } else {
-                    back.to_owned()
-                };
+                let back = back.trim_start_matches("shift-");
                 format!("- {panel} {}", vec![back; moved as usize].join(" "))
             }
             Move::Camera(key) => {
@@ -1459,6 +1455,8 @@ proptest! {
         moves in prop::collection::vec(any_move(), 1..24),
     ) {
         let mut person = Person::opens(scene, size.0, size.1);
+        // A turn of the method goes to this lens.
+        person.commands("lens machine");
         let (mut panel, mut chosen) = ("1", None);
         let mut ways_back = Vec::new();
         for a_move in moves {
@@ -1487,4 +1485,18 @@ proptest! {
 
 fn writes(action: Action) -> bool {
     matches!(action, Action::Save | Action::SaveAs | Action::Quit)
+}
+
+#[test]
+fn the_lens_stays_until_a_method_is_chosen() {
+    let mut person = Person::opens("trio", 80, 24);
+    person.shows(" mathematics ");
+    person.presses("L").shows(" machine ");
+    person.presses("L right 5").shows(" mathematics ");
+    person.presses("m").shows(" machine ");
+    person.commands("lens mathematics").shows(" mathematics ");
+    person.commands("method haines").shows(" machine ");
+    person
+        .commands("lens glass")
+        .shows("expected one of mathematics, machine");
 }

@@ -15,12 +15,13 @@ pub(super) struct PlaceFlags<const TOUR: bool> {
 }
 
 /// Flags that stand before those that say where: how the picture is drawn.
-const HOW: [&str; 4] = ["method", "style", "view", "aspect"];
+const HOW: [&str; 5] = ["method", "lens", "style", "view", "aspect"];
 
 /// The flag of a setting, for a scene.
 fn flag_of_scene(row: &'static SettingRow) -> Option<Arg> {
     let arg = flag(row, |help| match row.name {
         "style" => format!("{help} [default: half where there are colours, else ascii]"),
+        "lens" => format!("{help} [default: mathematics]"),
         "aspect" => format!("{help} [default: 2]"),
         _ => help.to_owned(),
     })?;
@@ -34,7 +35,7 @@ fn flag_of_scene(row: &'static SettingRow) -> Option<Arg> {
 /// The flag of a setting, for a page of the tour.
 fn flag_of_page(row: &'static SettingRow) -> Option<Arg> {
     flag(row, |help| match row.name {
-        "method" | "style" | "view" => format!("{help} [default: as the page has it]"),
+        "method" | "lens" | "style" | "view" => format!("{help} [default: as the page has it]"),
         "aspect" => format!("{help} [default: 2]"),
         _ => help.to_owned(),
     })

@@ -7,6 +7,7 @@
 mod compare;
 mod derivation;
 mod figure;
+mod lens;
 mod number;
 mod panel;
 mod plan;
@@ -22,6 +23,7 @@ use crate::scene::{Body, Scene};
 pub use compare::{comparison, measured_bits};
 pub use derivation::{Drawn, Step, StepQuestion, derivation};
 pub use figure::{FigureInk, Float, Landmark, bits, curve, landmarks, slice, turning, work};
+pub use lens::Lens;
 pub use number::{Digits, number, vector};
 pub use panel::{Line, Role, Span, fit, lines, plain_text};
 pub use plan::{

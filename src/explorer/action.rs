@@ -99,13 +99,13 @@ actions! {
     /// cursor one pixel down
     CursorDown "cursor-down" ["down", "j"] Cursor;
     /// cursor eight pixels left
-    CursorFarLeft "cursor-far-left" ["shift-left", "H"] Cursor;
+    CursorFarLeft "cursor-far-left" ["shift-left"] Cursor;
     /// cursor eight pixels right
-    CursorFarRight "cursor-far-right" ["shift-right", "L"] Cursor;
+    CursorFarRight "cursor-far-right" ["shift-right"] Cursor;
     /// cursor eight pixels up
-    CursorFarUp "cursor-far-up" ["shift-up", "K"] Cursor;
+    CursorFarUp "cursor-far-up" ["shift-up"] Cursor;
     /// cursor eight pixels down
-    CursorFarDown "cursor-far-down" ["shift-down", "J"] Cursor;
+    CursorFarDown "cursor-far-down" ["shift-down"] Cursor;
     /// cursor to the centre of the picture
     CursorCenter "cursor-center" ["'"] Cursor;
     /// cursor to the nearest tangent pixel, or the nearest to one
@@ -183,6 +183,8 @@ actions! {
     /// type exact values: the numbers of the sphere and the camera
     Edit "edit" ["="] Spheres;
 
+    /// the other lens: the mathematics of a pixel, or the machine's arithmetic
+    OtherLens "other-lens" ["L"] View;
     /// next method
     NextMethod "next-method" ["m"] View;
     /// previous method

@@ -1,5 +1,6 @@
 //! How the picture is asked for and drawn: method, view, style, colours.
 
+use crate::explain::Lens;
 use crate::explorer::action::Action;
 use crate::explorer::draw::theme::Palette;
 use crate::explorer::options::Request;
@@ -15,6 +16,7 @@ pub(crate) fn act(action: Action, state: &mut State) -> bool {
     match action {
         Action::NextMethod => turn_method(state, 1),
         Action::PreviousMethod => turn_method(state, Method::ALL.len() - 1),
+        Action::OtherLens => state.at.lens = state.at.lens.other(),
         Action::NextView => turn_view(state, 1),
         Action::PreviousView => turn_view(state, View::ALL.len() - 1),
         Action::NextStyle => turn_style(state, 1),
@@ -44,7 +46,12 @@ fn toggle_mouse(state: &mut State) {
 }
 
 fn turn_method(state: &mut State, by: usize) {
-    state.at.method = turn(&Method::ALL, state.at.method, by);
+    set_method(state, turn(&Method::ALL, state.at.method, by));
+}
+
+/// Chooses a method, and looks at what its arithmetic does.
+pub(crate) const fn set_method(state: &mut State, method: Method) {
+    (state.at.method, state.at.lens) = (method, Lens::Machine);
 }
 
 fn turn_view(state: &mut State, by: usize) {

@@ -15,7 +15,8 @@ use crate::scene::{Scene, Size};
 /// Gives one setting its value, as a command does; says why not if it can't have it.
 pub(crate) fn set(state: &mut State, setting: Setting) {
     match setting {
-        Setting::Method(method) => state.at.method = method,
+        Setting::Method(method) => look::set_method(state, method),
+        Setting::Lens(lens) => state.at.lens = lens,
         Setting::Style(style) => look::set_style(state, style),
         Setting::View(view) => look::set_view(state, view),
         Setting::Theme(palette) => look::set_palette(state, palette),

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
+use crate::explain::Lens;
 use crate::explorer::draw::theme::Palette;
 use crate::explorer::edit::field::{NumberField, parse_number};
 use crate::explorer::panel::Panel;
@@ -21,6 +22,8 @@ use crate::text::{by_name, read};
 pub enum Setting {
     /// How the quadratic is evaluated.
     Method(Method),
+    /// Which story of a pixel is told.
+    Lens(Lens),
     /// How samples become characters.
     Style(Style),
     /// What the picture shows.
@@ -82,6 +85,21 @@ pub const SETTINGS: &[SettingRow] = &[
         choices: || names(&Method::ALL, Method::name),
         parse: |text| one_of(text, &Method::ALL, Method::name).map(Setting::Method),
         write: |at| Some(at.method.name().into()),
+    },
+    SettingRow {
+        name: "lens",
+        command: Some((
+            "NAME",
+            "look at the mathematics of a pixel, or at the machine's arithmetic",
+        )),
+        flag: Some((
+            "LENS",
+            "The mathematics of a pixel, or the machine's arithmetic",
+        )),
+        spoken: Some("lens"),
+        choices: || names(&Lens::ALL, Lens::name),
+        parse: |text| one_of(text, &Lens::ALL, Lens::name).map(Setting::Lens),
+        write: |at| Some(at.lens.name().into()),
     },
     SettingRow {
         name: "style",
@@ -279,6 +297,7 @@ impl Viewpoint {
     pub(crate) fn put(&mut self, setting: &Setting) {
         match *setting {
             Setting::Method(method) => self.method = method,
+            Setting::Lens(lens) => self.lens = lens,
             Setting::Style(style) => self.style = style,
             Setting::View(view) => self.view = view,
             Setting::Panel(panel) => self.panel = panel,
@@ -389,6 +408,7 @@ mod tests {
     fn a_viewpoint_is_written_and_read_back() {
         let at = Viewpoint {
             method: Method::Haines,
+            lens: Lens::Machine,
             style: Style::Braille,
             view: View::Lost,
             panel: Panel::Curve,

@@ -1,5 +1,6 @@
 //! Where a person looks: what a link carries, a page of the tour sets, and a class shares.
 
+use crate::explain::Lens;
 use crate::explorer::panel::Panel;
 use crate::method::Method;
 use crate::render::{Style, View};
@@ -10,6 +11,8 @@ use crate::scene::{Scene, Size};
 pub struct Viewpoint {
     /// How the quadratic is evaluated.
     pub method: Method,
+    /// Which story of a pixel is told.
+    pub lens: Lens,
     /// How samples become characters.
     pub style: Style,
     /// What the picture shows.
@@ -36,6 +39,7 @@ impl Default for Viewpoint {
     fn default() -> Self {
         Self {
             method: Method::default(),
+            lens: Lens::default(),
             style: Style::Half,
             view: View::default(),
             panel: Panel::default(),

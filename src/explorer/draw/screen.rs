@@ -120,6 +120,7 @@ fn draw_title(state: &State, pen: &mut Pen<'_>, area: Rect) {
     let projection = state.scene().camera.projection.name();
     let turned = state.work.document.turn().map(|turn| turn.formula());
     let words = [
+        state.at.lens.name(),
         state.at.method.name(),
         turned.as_deref().unwrap_or_default(),
         state.shown_view().name(),

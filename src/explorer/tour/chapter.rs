@@ -230,6 +230,7 @@ struct PageFile {
     pixel: Option<Spanned<[u32; 2]>>,
     point: Option<Spanned<[f32; 3]>>,
     method: Option<Spanned<String>>,
+    lens: Option<Spanned<String>>,
     view: Option<Spanned<String>>,
     style: Option<Spanned<String>>,
     panel: Option<Spanned<String>>,
@@ -309,6 +310,7 @@ impl PageFile {
         }
         let named = [
             ("method", &self.method),
+            ("lens", &self.lens),
             ("view", &self.view),
             ("style", &self.style),
             ("panel", &self.panel),
