@@ -273,6 +273,28 @@ fn the_cursor_moves_and_stops_at_the_edge() {
 }
 
 #[test]
+fn the_opening_scene_slides_by_its_first_camera_keys_and_keeps_its_numbers_whole() {
+    for size in [(80, 24), (100, 30), (160, 50)] {
+        let mut person = Person::opens("opening", size.0, size.1);
+        for key in ["a", "d", "w", "s", "+"] {
+            let before = person.screen();
+            person.presses(key);
+            assert_ne!(person.screen(), before, "{key}");
+            let reading = person.explorer.reading().expect("a reading");
+            assert_eq!(reading.ray.direction.to_array(), [0.0, 0.0, 1.0], "{key}");
+            let start = reading.ray.origin.to_array();
+            assert!(
+                start.map(|x| x.fract() == 0.0) == [true; 3],
+                "{key}: {start:?}"
+            );
+        }
+        person.presses("A");
+        let turned = person.explorer.reading().expect("a reading").ray.direction;
+        assert_ne!(turned.to_array(), [0.0, 0.0, 1.0], "shift orbits");
+    }
+}
+
+#[test]
 fn snapping_finds_the_nearest_tangent_pixel() {
     let mut person = Person::opens("tutorial", 80, 24);
     person.commands("cursor 33 20").presses("t");

@@ -388,7 +388,10 @@ fn the_eye_inside_on_and_just_outside_a_sphere() {
             ];
             let size = Size::new(23, 17);
             let mut pair = Pair::new();
-            let orthographic = Projection::Orthographic { extent: [7.0, 7.0] };
+            let orthographic = Projection::Orthographic {
+                extent: [7.0, 7.0],
+                step: None,
+            };
             for projection in [WIDE, orthographic] {
                 let scene = scene(projection, bodies.clone());
                 let rays = rays_of(&scene, size);
@@ -435,7 +438,10 @@ fn radii_from_1e_minus_30_to_1e_30_in_one_scene() {
         .collect();
     for bodies in [bodies.clone(), bodies.into_iter().rev().collect()] {
         check_everything(&scene(WIDE, bodies.clone()), Size::new(15, 11));
-        let flat = Projection::Orthographic { extent: [4.0, 4.0] };
+        let flat = Projection::Orthographic {
+            extent: [4.0, 4.0],
+            step: None,
+        };
         check_everything(&scene(flat, bodies), Size::new(15, 11));
     }
 }
@@ -523,7 +529,7 @@ proptest! {
         method in prop::sample::select(&Method::ALL[..]),
         view in prop::sample::select(&View::ALL[..]),
     ) {
-        let flat = Projection::Orthographic { extent: [9.0, 9.0] };
+        let flat = Projection::Orthographic { extent: [9.0, 9.0], step: None };
         let mut scene = scene(if perspective { WIDE } else { flat }, bodies);
         let mut pair = Pair::new();
         let (mut method, mut view) = (method, view);

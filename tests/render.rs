@@ -40,6 +40,7 @@ fn tutorial() -> Scene {
     let camera = Camera {
         projection: Projection::Orthographic {
             extent: [40.0, 40.0],
+            step: None,
         },
         position: Vec3::new(19.5, 19.5, 0.0),
         look_at: Vec3::new(19.5, 19.5, 20.0),
@@ -176,7 +177,10 @@ fn a_sphere_is_round_in_every_style() {
         Projection::Perspective {
             field_of_view: 45.0,
         },
-        Projection::Orthographic { extent: [8.0, 8.0] },
+        Projection::Orthographic {
+            extent: [8.0, 8.0],
+            step: None,
+        },
     ] {
         for style in Style::ALL {
             for cell_aspect in [1.0, 1.7, 2.0, 2.6] {
@@ -424,6 +428,7 @@ fn any_camera(eye: Vec3, bodies: &[Body]) -> impl Strategy<Value = Camera> + use
                 let extent = (zoom * target.radius).max(0.1);
                 Projection::Orthographic {
                     extent: [extent, extent],
+                    step: None,
                 }
             };
             let camera = Camera {
@@ -544,6 +549,7 @@ fn what_is_left_out_changes_no_bit_at_the_ends_of_the_range() {
         let camera = Camera {
             projection: Projection::Orthographic {
                 extent: [extent, extent],
+                step: None,
             },
             ..looking_down_z([0.0; 3])
         };
@@ -556,7 +562,10 @@ fn what_is_left_out_changes_no_bit_at_the_ends_of_the_range() {
 #[test]
 fn of_spheres_about_one_point_exact_sees_the_outer_one_from_far_away() {
     let camera = Camera {
-        projection: Projection::Orthographic { extent: [4.0, 4.0] },
+        projection: Projection::Orthographic {
+            extent: [4.0, 4.0],
+            step: None,
+        },
         position: Vec3::new(0.0, 0.0, 1e7),
         look_at: Vec3::ZERO,
         up: Vec3::Y,

@@ -40,9 +40,18 @@ fn text() -> impl Strategy<Value = String> {
     r#"[\PC"\\#'=]{0,12}"#
 }
 
+/// The pixels' grid of an orthographic camera: none, or a power of two.
+fn step() -> impl Strategy<Value = Option<f32>> {
+    prop_oneof![
+        Just(None),
+        (-149_i32..=127).prop_map(|k| Some(2.0_f64.powi(k) as f32)),
+    ]
+}
+
 fn projection() -> impl Strategy<Value = Projection> {
     prop_oneof![
-        [above_zero(), above_zero()].prop_map(|extent| Projection::Orthographic { extent }),
+        ([above_zero(), above_zero()], step())
+            .prop_map(|(extent, step)| Projection::Orthographic { extent, step }),
         above_zero()
             .prop_filter("an angle", |v| *v < 180.0)
             .prop_map(|field_of_view| Projection::Perspective { field_of_view }),
@@ -456,6 +465,15 @@ fn bad_files() -> Vec<(&'static str, String)> {
             with_camera(&format!("{WINDOW}field_of_view = 45")),
         ),
         ("an extent in perspective", with_camera("extent = [4, 3]")),
+        (
+            "a step that is no power of two",
+            with_camera("projection = \"orthographic\"\nextent = [4, 3]\nstep = 3"),
+        ),
+        (
+            "a step below zero",
+            with_camera("projection = \"orthographic\"\nstep = -1"),
+        ),
+        ("a step in perspective", with_camera("step = 1")),
         ("no pixels", with_camera("pixels = [0, 40]")),
         ("too many pixels", with_camera("pixels = [40, 5000]")),
         ("half a pixel", with_camera("pixels = [40, 30.5]")),

@@ -13,14 +13,14 @@ use super::place::PlaceFlags;
 use super::{Failure, Outcome, complain};
 use crate::door::{self, Expected};
 use crate::explorer::{Explorer, Options, Setting, Workplace};
-use crate::scene::{Scene, Source};
+use crate::scene::{Builtin, Scene, Source};
 use crate::terminal::{self, Session};
 
 /// How the explorer opens.
 #[derive(Debug, Args)]
 pub(super) struct Explore {
-    /// A scene file, or the name of a built-in scene
-    #[arg(default_value = "tutorial")]
+    /// A scene file, or the name of a built-in scene [default: the opening scene]
+    #[arg(default_value = Builtin::default().name(), hide_default_value = true)]
     scene: OsString,
 
     #[command(flatten)]

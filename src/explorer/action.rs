@@ -312,6 +312,22 @@ impl Action {
         Self::ALL.iter().copied().find(|a| a.name() == name)
     }
 
+    /// What the keys of this action do to a camera whose pixels are on a grid: they slide it where they
+    /// orbit others, since an orbit leaves the grid, and the reverse.
+    pub const fn on_grid(self) -> Self {
+        match self {
+            Self::OrbitLeft => Self::PanLeft,
+            Self::OrbitRight => Self::PanRight,
+            Self::OrbitUp => Self::PanUp,
+            Self::OrbitDown => Self::PanDown,
+            Self::PanLeft => Self::OrbitLeft,
+            Self::PanRight => Self::OrbitRight,
+            Self::PanUp => Self::OrbitUp,
+            Self::PanDown => Self::OrbitDown,
+            other => other,
+        }
+    }
+
     /// The action that a key is bound to.
     pub fn bound_to(key: Key) -> Option<Self> {
         Self::ALL

@@ -328,7 +328,8 @@ impl Explorer {
             }
         }
         if let Some(action) = Action::bound_to(key) {
-            self.act(action);
+            let on_grid = self.scene().camera.step().is_some();
+            self.act(if on_grid { action.on_grid() } else { action });
         } else if key.is("esc") {
             self.state.picture.changed.fill(false);
         } else {

@@ -135,8 +135,10 @@ fn moved(scene: &Scene, place: impl Fn(DVec3) -> DVec3, factor: f64) -> Scene {
     let place = |p: &mut Vec3| *p = place(p.as_dvec3()).as_vec3();
     place(&mut turned.camera.position);
     place(&mut turned.camera.look_at);
-    if let Projection::Orthographic { extent } = &mut turned.camera.projection {
-        *extent = extent.map(|side| (factor * f64::from(side)) as f32);
+    if let Projection::Orthographic { extent, step } = &mut turned.camera.projection {
+        let scaled = |length: f32| (factor * f64::from(length)) as f32;
+        *extent = extent.map(scaled);
+        *step = step.map(scaled);
     }
     for body in &mut turned.bodies {
         place(&mut body.sphere.center);

@@ -334,6 +334,7 @@ mod tests {
             camera: Camera {
                 projection: Projection::Orthographic {
                     extent: [26.0, 16.0],
+                    step: None,
                 },
                 position: Vec3::new(12.5, 7.5, 0.0),
                 look_at: Vec3::new(12.5, 7.5, 1.0),

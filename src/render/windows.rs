@@ -389,7 +389,8 @@ mod tests {
         prop_oneof![
             (0.01_f32..179.0).prop_map(|field_of_view| Projection::Perspective { field_of_view }),
             any_scale(-6.0, 6.0).prop_map(|side| Projection::Orthographic {
-                extent: [side, side]
+                extent: [side, side],
+                step: None
             }),
         ]
     }

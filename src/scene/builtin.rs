@@ -9,8 +9,10 @@ use crate::text::by_name;
 /// A scene that comes with the program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Builtin {
-    /// The tutorial's screen.
+    /// What opens where no scene is asked for: three spheres in the tutorial's geometry.
     #[default]
+    Opening,
+    /// The tutorial's screen.
     Tutorial,
     /// A line that misses, one that touches, one that crosses.
     ThreeLines,
@@ -32,7 +34,8 @@ pub enum Builtin {
 
 impl Builtin {
     /// All of them, in the order in which lists show them.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
+        Self::Opening,
         Self::Tutorial,
         Self::ThreeLines,
         Self::Trio,
@@ -47,6 +50,7 @@ impl Builtin {
     /// The name on the command line.
     pub const fn name(self) -> &'static str {
         match self {
+            Self::Opening => "opening",
             Self::Tutorial => "tutorial",
             Self::ThreeLines => "three-lines",
             Self::Trio => "trio",
@@ -81,6 +85,7 @@ impl Builtin {
     /// What the embedded file says; of `crowd`, all but the spheres.
     fn file(self) -> Scene {
         let text = match self {
+            Self::Opening => include_str!("builtin/opening.toml"),
             Self::Tutorial => include_str!("builtin/tutorial.toml"),
             Self::ThreeLines => include_str!("builtin/three-lines.toml"),
             Self::Trio => include_str!("builtin/trio.toml"),

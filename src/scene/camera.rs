@@ -4,6 +4,7 @@ use std::fmt;
 
 use glam::{DVec3, Vec3};
 
+use super::value::NumberKind;
 use crate::geometry::{Decimal, Invalid, List, Ray};
 
 /// How pixels become rays.
@@ -13,6 +14,9 @@ pub enum Projection {
     Orthographic {
         /// Width and height seen.
         extent: [f32; 2],
+        /// A power of two that the place of every pixel is a multiple of, whatever the size of the
+        /// picture.
+        step: Option<f32>,
     },
     /// Rays that start at one point.
     Perspective {
@@ -72,13 +76,18 @@ impl Camera {
             }
         }
         match self.projection {
-            Projection::Orthographic { extent } => {
+            Projection::Orthographic { extent, step } => {
                 if !extent.iter().all(|e| e.is_finite() && *e > 0.0) {
                     let found = List(extent);
                     return Err(Invalid::new("extent", found, "two finite numbers above 0"));
                 }
+                let kind = NumberKind::Step;
+                if let Some(step) = step.filter(|&step| kind.check(step).is_err()) {
+                    return Err(Invalid::new("step", Decimal(step), kind.expected()));
+                }
                 // Whatever the shape of its room, a picture shows less than this many times as much.
-                let reach = f64::from(Size::LARGEST) * f64::from(extent[0].max(extent[1]));
+                let side = f64::from(extent[0].max(extent[1])) + f64::from(step.unwrap_or(0.0));
+                let reach = f64::from(Size::LARGEST) * side;
                 if self.position.as_dvec3().abs().max_element() + reach > f64::from(f32::MAX) {
                     let found = List(extent);
                     return Err(Invalid::new(
@@ -113,6 +122,14 @@ impl Camera {
             ));
         }
         Ok(())
+    }
+
+    /// The step of the grid that the pixels' places are on, if they are on one.
+    pub const fn step(&self) -> Option<f32> {
+        match self.projection {
+            Projection::Orthographic { step, .. } => step,
+            Projection::Perspective { .. } => None,
+        }
     }
 
     fn try_basis(&self) -> Option<Basis> {
@@ -214,7 +231,8 @@ impl Rays {
     /// The rays of a picture of `size` pixels of the given shape.
     ///
     /// With a shape of its own the picture shows exactly the camera's extent; in a room of
-    /// another shape at least that. A field of view is always the height of the picture.
+    /// another shape, or where the camera has a step, at least that. A field of view is always the
+    /// height of the picture.
     pub fn new(camera: &Camera, size: Size, shape: PixelShape) -> Self {
         let Basis {
             right,
@@ -223,16 +241,17 @@ impl Rays {
         } = camera.basis();
         let [w, h] = [size.width.max(1) as f64, size.height.max(1) as f64];
         let (perspective, [dx, dy]) = match camera.projection {
-            Projection::Orthographic { extent } => {
+            Projection::Orthographic { extent, step } => {
                 let [ew, eh] = extent.map(f64::from);
-                let step = match shape {
+                let pixel = match shape {
                     PixelShape::Own => [ew / w, eh / h],
                     PixelShape::Aspect(aspect) => {
                         let dx = (ew / w).max(eh / h / aspect);
                         [dx, dx * aspect]
                     }
                 };
-                (false, step)
+                let on_grid = |step| whole_steps(pixel, f64::from(step), shape);
+                (false, step.map_or(pixel, on_grid))
             }
             Projection::Perspective { field_of_view } => {
                 let dy = 2.0 * (f64::from(field_of_view) / 2.0).to_radians().tan() / h;
@@ -243,9 +262,14 @@ impl Rays {
                 (true, [dx, dy])
             }
         };
+        let mut origin = camera.position.as_dvec3();
+        if camera.step().is_some() {
+            origin += onto_grid(origin, right, dx, size.width);
+            origin += onto_grid(origin, down, dy, size.height);
+        }
         Self {
             size,
-            origin: camera.position.as_dvec3(),
+            origin,
             direction: forward,
             right: right * dx,
             down: down * dy,
@@ -293,6 +317,27 @@ impl Rays {
     }
 }
 
+/// A pixel of whole steps that shows no less than `pixel`; in a room, of whole proportions too.
+fn whole_steps(pixel: [f64; 2], step: f64, shape: PixelShape) -> [f64; 2] {
+    let steps = |length: f64| (length / step).ceil().max(1.0);
+    match shape {
+        PixelShape::Own => pixel.map(|length| steps(length) * step),
+        PixelShape::Aspect(aspect) => {
+            let [wide, high] = [1.0 / aspect, aspect].map(|ratio| ratio.round().max(1.0));
+            let n = steps(pixel[0] / wide).max(steps(pixel[1] / high));
+            [n * wide * step, n * high * step]
+        }
+    }
+}
+
+/// What shifts a picture along one of its axes so that all its pixels, so many of this `length`, are
+/// at multiples of their length.
+fn onto_grid(origin: DVec3, axis: DVec3, length: f64, count: u32) -> DVec3 {
+    let half = if count.is_multiple_of(2) { 0.5 } else { 0.0 };
+    let middle = origin.dot(axis) + half * length;
+    axis * ((middle / length).round() * length - middle)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -301,6 +346,7 @@ mod tests {
         Camera {
             projection: Projection::Orthographic {
                 extent: [40.0, 40.0],
+                step: None,
             },
             position: Vec3::new(19.5, 19.5, 0.0),
             look_at: Vec3::new(19.5, 19.5, 20.0),
@@ -336,6 +382,44 @@ mod tests {
                 assert!((at[1] - f64::from(y)).abs() < 1e-4, "{at:?}");
             }
         }
+    }
+
+    #[test]
+    fn the_pixels_of_a_camera_with_a_step_are_on_its_grid_at_any_size() {
+        for step in [0.25, 1.0, 2.0] {
+            let camera = Camera {
+                projection: Projection::Orthographic {
+                    extent: [40.0, 40.0],
+                    step: Some(step),
+                },
+                ..tutorial()
+            };
+            for (w, h) in [(1, 1), (7, 40), (40, 20), (41, 39), (200, 117)] {
+                for shape in [1.0, 2.0, 2.1, 0.5].map(PixelShape::Aspect) {
+                    let rays = Rays::new(&camera, Size::new(w, h), shape);
+                    let [first, last] =
+                        [(0, 0), (w - 1, h - 1)].map(|(x, y)| rays.ray(x, y).origin);
+                    for at in [first, last] {
+                        assert_eq!((at.x % step, at.y % step, at.z), (0.0, 0.0, 0.0), "{at}");
+                    }
+                    let seen =
+                        (last - first) + Vec3::new(rays.right.x as f32, rays.down.y as f32, 0.0);
+                    assert!(
+                        seen.x >= 40.0 && seen.y >= 40.0,
+                        "{w}×{h} {shape:?}: {seen}"
+                    );
+                }
+            }
+        }
+        let own = |camera: &Camera| Rays::new(camera, Size::new(40, 40), PixelShape::Own);
+        let with_step = Camera {
+            projection: Projection::Orthographic {
+                extent: [40.0, 40.0],
+                step: Some(1.0),
+            },
+            ..tutorial()
+        };
+        assert_eq!(own(&with_step), own(&tutorial()));
     }
 
     #[test]

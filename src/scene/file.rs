@@ -112,6 +112,7 @@ impl SceneTable {
                 "up",
                 "field_of_view",
                 "extent",
+                "step",
                 "pixels",
             ],
             Self::Light => &["position"],
@@ -486,14 +487,18 @@ fn projection(section: &TableReader) -> Result<Projection, SceneFault> {
             "a list of two numbers above 0, [width, height]",
             |value| number(value, NumberKind::Extent),
         )?;
+        let step = section.number("step", NumberKind::Step)?;
         refuse_other(section, "field_of_view", "perspective")?;
         let expected = "the width and height that an orthographic camera sees";
+        let of_step = step.map(|step| [STEPS_SEEN * step; 2]);
         Ok(Projection::Orthographic {
-            extent: section.required("extent", expected, extent)?,
+            extent: section.required("extent", expected, extent.or(of_step))?,
+            step,
         })
     } else {
         let field_of_view = section.number("field_of_view", NumberKind::FieldOfView)?;
         refuse_other(section, "extent", "orthographic")?;
+        refuse_other(section, "step", "orthographic")?;
         Ok(Projection::Perspective {
             field_of_view: field_of_view.unwrap_or(FIELD_OF_VIEW),
         })
@@ -502,6 +507,9 @@ fn projection(section: &TableReader) -> Result<Projection, SceneFault> {
 
 /// The vertical angle, in degrees, of a perspective camera that gives none.
 const FIELD_OF_VIEW: f32 = 45.0;
+
+/// How many steps an orthographic camera that gives a step and no extent sees, across and down.
+const STEPS_SEEN: f32 = 40.0;
 
 /// Refuses a key that only the other projection has.
 fn refuse_other(section: &TableReader, key: &str, other: &str) -> Result<(), SceneFault> {
@@ -610,6 +618,7 @@ mod tests {
             format!("{} MiB", LARGEST_FILE >> 20),
             format!("1 to {}", Size::LARGEST),
             format!("| {FIELD_OF_VIEW} |"),
+            format!("{STEPS_SEEN} steps"),
         ] {
             assert!(DOCS.contains(&limit), "{limit}");
         }

@@ -48,6 +48,8 @@ pub enum NumberKind {
     Radius,
     /// A width or height that an orthographic camera sees: above zero.
     Extent,
+    /// What the places of pixels are multiples of: a power of two.
+    Step,
     /// The vertical angle that a perspective camera sees, in degrees.
     FieldOfView,
 }
@@ -72,6 +74,7 @@ impl NumberKind {
             Self::Coordinate => true,
             Self::Radius => value >= 0.0,
             Self::Extent => value > 0.0,
+            Self::Step => is_power_of_two(value),
             Self::FieldOfView => value > 0.0 && value < 180.0,
         };
         if allowed && value.is_finite() {
@@ -87,9 +90,15 @@ impl NumberKind {
             Self::Coordinate => "a finite number",
             Self::Radius => "a finite number of zero or more",
             Self::Extent => "a finite number above 0",
+            Self::Step => "a power of two, such as 1, 2 or 0.5",
             Self::FieldOfView => "an angle in degrees above 0 and below 180",
         }
     }
+}
+
+/// Whether `x` is 2^k for a whole number k.
+fn is_power_of_two(x: f32) -> bool {
+    x > 0.0 && x.is_finite() && f64::from(x).to_bits().trailing_zeros() >= 52
 }
 
 /// What is expected of a number that rounds to an infinity.

@@ -45,7 +45,10 @@ impl Camera {
         writeln!(out, "look_at = {}", list(self.look_at))?;
         writeln!(out, "up = {}", list(self.up))?;
         match self.projection {
-            Projection::Orthographic { extent } => writeln!(out, "extent = {}", List(extent)),
+            Projection::Orthographic { extent, step } => {
+                writeln!(out, "extent = {}", List(extent))?;
+                step.map_or(Ok(()), |step| writeln!(out, "step = {}", Decimal(step)))
+            }
             Projection::Perspective { field_of_view } => {
                 writeln!(out, "field_of_view = {}", Decimal(field_of_view))
             }

@@ -225,7 +225,7 @@ fn panics() {
 
 #[test]
 fn a_terminal_of_any_size_is_drawn_as_far_as_is_sane() {
-    let mut pty = Pty::explorer(Start::default());
+    let mut pty = Pty::explorer(Start::default().args(&["tutorial"]));
     pty.claims(20_000, 20_000);
     pty.waits_for("the sentence", |p| p.occurrences(b"20000 columns") > 0);
     let status = fs::read_to_string(format!("/proc/{}/status", pty.pid()));
@@ -600,7 +600,7 @@ fn colours_are_as_many_as_are_asked_for() {
         let mut pty = Pty::explorer(start);
         pty.sends(keys);
         pty.sends("l");
-        pty.waits_to_show("pixel (21, 20)");
+        pty.waits_for("the next pixel", |p| p.text().contains("pixel (21, "));
         pty.sends("q");
         assert_eq!(pty.ends(), 0);
         let found = if pty.occurrences(b"8;2;") > 0 {
@@ -627,7 +627,8 @@ fn ascii_is_written_where_it_is_asked_for() {
 #[test]
 fn lines_of_text_work_on_every_terminal_and_move_no_cursor() {
     for term in ["dumb", "xterm-256color"] {
-        let mut pty = Start::default().args(&["--plain"]).env("TERM", term).open();
+        let start = Start::default().args(&["tutorial", "--plain"]);
+        let mut pty = start.env("TERM", term).open();
         pty.waits_to_show("> ");
         pty.sends("cursor-right 3\r");
         pty.waits_to_show("pixel (23, 20)");

@@ -21,6 +21,8 @@ pub enum NumberField {
     Up(usize),
     /// Width (0) or height (1) of what an orthographic camera sees.
     Extent(usize),
+    /// What the places of an orthographic camera's pixels are multiples of.
+    PixelStep,
     /// The vertical angle that a perspective camera sees, in degrees.
     ViewAngle,
 }
@@ -43,7 +45,7 @@ impl NumberField {
             .chain((0..3).map(Self::LookAt))
             .chain((0..3).map(Self::Up))
             .chain((0..2).map(Self::Extent))
-            .chain([Self::ViewAngle])
+            .chain([Self::PixelStep, Self::ViewAngle])
     }
 
     /// The field of that name.
@@ -66,6 +68,7 @@ impl NumberField {
             Self::Up(i) => format!("up.{}", AXES[i]),
             Self::Extent(0) => "extent.width".into(),
             Self::Extent(_) => "extent.height".into(),
+            Self::PixelStep => "step".into(),
             Self::ViewAngle => "field_of_view".into(),
         }
     }
@@ -85,7 +88,8 @@ impl NumberField {
             (Self::Position(i), _) => Some(camera.position[i]),
             (Self::LookAt(i), _) => Some(camera.look_at[i]),
             (Self::Up(i), _) => Some(camera.up[i]),
-            (Self::Extent(i), Projection::Orthographic { extent }) => Some(extent[i]),
+            (Self::Extent(i), Projection::Orthographic { extent, .. }) => Some(extent[i]),
+            (Self::PixelStep, Projection::Orthographic { step, .. }) => step,
             (Self::ViewAngle, Projection::Perspective { field_of_view }) => Some(field_of_view),
             _ => None,
         }
@@ -129,7 +133,8 @@ impl NumberField {
             (Self::Position(i), _) => camera.position[i] = value,
             (Self::LookAt(i), _) => camera.look_at[i] = value,
             (Self::Up(i), _) => camera.up[i] = value,
-            (Self::Extent(i), Projection::Orthographic { extent }) => extent[i] = value,
+            (Self::Extent(i), Projection::Orthographic { extent, .. }) => extent[i] = value,
+            (Self::PixelStep, Projection::Orthographic { step, .. }) => *step = Some(value),
             (Self::ViewAngle, Projection::Perspective { field_of_view }) => {
                 *field_of_view = value;
             }

@@ -36,11 +36,18 @@ pub fn orbit(camera: &Camera, right: f64, up: f64) -> Camera {
     )
 }
 
-/// Moves the camera and the point looked at, across the screen: `right` and `up` in steps.
+/// Moves the camera and the point looked at, across the screen: `right` and `up` in steps; where the
+/// pixels are on a grid, they stay on it.
 pub fn pan(camera: &Camera, right: f64, up: f64) -> Camera {
     let basis = camera.basis();
-    let shift = (basis.right * right - basis.down * up) * (PAN_STEP * window(camera));
-    shifted(camera, shift)
+    let length = PAN_STEP * window(camera);
+    let shift = [right, up].map(|steps| match camera.step().map(f64::from) {
+        Some(grid) if steps != 0.0 => {
+            (2.0 * steps.abs() * length / grid).round().max(1.0) * grid * steps.signum()
+        }
+        _ => steps * length,
+    });
+    shifted(camera, basis.right * shift[0] - basis.down * shift[1])
 }
 
 /// Moves the camera forward, the point looked at with it only when it would be reached.
@@ -56,12 +63,18 @@ pub fn dolly(camera: &Camera, steps: f64) -> Camera {
     )
 }
 
-/// Narrows (positive) or widens what is seen, without moving.
+/// Narrows (positive) or widens what is seen, without moving; where the pixels are on a grid, to half
+/// or twice as much, and so is the grid.
 pub fn zoom(camera: &Camera, steps: f64) -> Camera {
-    let factor = ZOOM_STEP.powf(steps);
+    let factor = match camera.step() {
+        Some(_) => (-steps.signum()).exp2(),
+        None => ZOOM_STEP.powf(steps),
+    };
+    let scaled = |length: f32| (f64::from(length) * factor) as f32;
     let projection = match camera.projection {
-        Projection::Orthographic { extent } => Projection::Orthographic {
-            extent: extent.map(|e| (f64::from(e) * factor) as f32),
+        Projection::Orthographic { extent, step } => Projection::Orthographic {
+            extent: extent.map(scaled),
+            step: step.map(scaled),
         },
         Projection::Perspective { field_of_view } => {
             let half = (f64::from(field_of_view).to_radians() / 2.0).tan() * factor;
@@ -110,7 +123,7 @@ pub fn look_at(camera: &Camera, point: Vec3) -> Camera {
 /// The height of what is seen at the point looked at, in units of the world.
 pub fn window(camera: &Camera) -> f64 {
     match camera.projection {
-        Projection::Orthographic { extent } => f64::from(extent[1]),
+        Projection::Orthographic { extent, .. } => f64::from(extent[1]),
         Projection::Perspective { field_of_view } => {
             let distance = (camera.look_at.as_dvec3() - camera.position.as_dvec3()).length();
             2.0 * distance * (f64::from(field_of_view).to_radians() / 2.0).tan()
