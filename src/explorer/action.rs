@@ -314,6 +314,7 @@ impl Action {
 
     /// What the keys of this action do to a camera whose pixels are on a grid: they slide it where they
     /// orbit others, since an orbit leaves the grid, and the reverse.
+    #[must_use]
     pub const fn on_grid(self) -> Self {
         match self {
             Self::OrbitLeft => Self::PanLeft,
