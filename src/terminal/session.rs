@@ -5,6 +5,7 @@ use std::collections::VecDeque;
 use std::io;
 use std::panic;
 use std::sync::{Arc, Mutex, MutexGuard, Once, PoisonError};
+use std::thread::{self, ThreadId};
 use std::time::{Duration, Instant};
 
 use super::TerminalInput;
@@ -37,7 +38,13 @@ const END_PATIENCE: Duration = Duration::from_millis(500);
 const LARGEST_SCREEN: (u16, u16) = (1000, 400);
 
 /// The terminal that is ours now, for a panic to give back.
-static HELD: Mutex<Option<Arc<Device>>> = Mutex::new(None);
+static HELD: Mutex<Option<Held>> = Mutex::new(None);
+
+/// A terminal, and the thread that draws on it.
+struct Held {
+    device: Arc<Device>,
+    by: ThreadId,
+}
 
 /// The terminal of this process, ours until this is dropped.
 #[derive(Debug)]
@@ -105,7 +112,10 @@ impl Session {
     /// Makes the terminal ours, whatever state it is in.
     fn take_over(&mut self) -> io::Result<()> {
         self.device.make_raw()?;
-        *held() = Some(Arc::clone(&self.device));
+        *held() = Some(Held {
+            device: Arc::clone(&self.device),
+            by: thread::current().id(),
+        });
         self.standing = Standing::Ours;
         self.frame.clear();
         self.frame.extend_from_slice(ENTER);
@@ -394,17 +404,23 @@ impl Drop for Session {
     }
 }
 
-fn held() -> MutexGuard<'static, Option<Arc<Device>>> {
+fn held() -> MutexGuard<'static, Option<Held>> {
     HELD.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// Lets a panic say what it has to say on the screen that the person came from.
+///
+/// Another thread's panic ends that thread alone: the screen stays, and what waits for the thread says so.
 fn restore_on_panic() {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {
         let before = panic::take_hook();
         panic::set_hook(Box::new(move |info| {
-            if let Some(device) = held().take() {
+            let this = thread::current().id();
+            if held().as_ref().is_some_and(|held| held.by != this) {
+                return;
+            }
+            if let Some(Held { device, .. }) = held().take() {
                 device.write_within(LEAVE, END_PATIENCE);
                 let _ = device.restore_modes();
             }
