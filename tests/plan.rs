@@ -7,7 +7,8 @@ use proptest::prelude::*;
 use rayscope::geometry::Sphere;
 use rayscope::lab::{BenchQueue, frames};
 use rayscope::method::Method;
-use rayscope::render::{Counts, Frame, Image, Look, Style, View};
+use rayscope::random::Random;
+use rayscope::render::{Allowance, Counts, Frame, Image, Look, Style, View};
 use rayscope::scene::{Body, Builtin, Camera, PixelShape, Projection, Rays, Scene, Size};
 
 /// So many cases, or as many as `RAYSCOPE_FRAMES` asks for.
@@ -79,9 +80,12 @@ fn said(scene: &Scene, frame: &Frame) -> Vec<impl PartialEq + std::fmt::Debug + 
         .collect()
 }
 
-/// A frame with the plan and one without, which must come to the same.
+/// A frame with the plan, one that is put down again and again, and one without the plan, which must come
+/// to the same.
 struct Pair {
     planned: Frame,
+    sliced: Frame,
+    random: Random,
     whole: Frame,
     drawn: Image,
 }
@@ -90,6 +94,8 @@ impl Pair {
     fn new() -> Self {
         Self {
             planned: Frame::new(),
+            sliced: Frame::new(),
+            random: Random::new(1),
             whole: Frame::new(),
             drawn: Image::new(),
         }
@@ -99,12 +105,13 @@ impl Pair {
     fn check(&mut self, scene: &Scene, rays: &Rays, method: Method, view: View) -> Counts {
         self.planned.render(scene, rays, method, view);
         self.whole.render_all(scene, rays, method, view);
-        assert_eq!(self.planned.range(), self.whole.range());
-        for (planned, whole) in said(scene, &self.planned)
-            .iter()
-            .zip(&said(scene, &self.whole))
-        {
-            assert_eq!(planned, whole, "{method}, {}", view.name());
+        self.render_in_slices(scene, rays, method, view);
+        let whole = said(scene, &self.whole);
+        for frame in [&self.planned, &self.sliced] {
+            assert_eq!(frame.range(), self.whole.range());
+            for (planned, whole) in said(scene, frame).iter().zip(&whole) {
+                assert_eq!(planned, whole, "{method}, {}", view.name());
+            }
         }
         // The picture that is mended cell by cell is the one that is drawn anew.
         let look = Look {
@@ -119,6 +126,33 @@ impl Pair {
             assert_that_counts_meet(scene, frame);
         }
         *self.planned.plan().counts()
+    }
+}
+
+impl Pair {
+    /// The next frame in slices of random lengths; now and then another one was begun before and is put
+    /// away.
+    fn render_in_slices(&mut self, scene: &Scene, rays: &Rays, method: Method, view: View) {
+        let Self { sliced, random, .. } = self;
+        let mut slice = |most| Allowance::of(1 + random.below(most));
+        let longest = 1 << slice(14).units();
+        if slice(4).units() == 1 {
+            let other = View::ALL[slice(View::ALL.len() as u64).units() as usize - 1];
+            sliced.begin(scene, rays, Method::Exact, other);
+            sliced.go_on(scene, rays, &mut slice(longest));
+        }
+        sliced.begin(scene, rays, method, view);
+        let mut share = 0.0;
+        while !sliced.go_on(scene, rays, &mut slice(longest)) {
+            assert!((share..1.0).contains(&sliced.share_done()));
+            share = sliced.share_done();
+        }
+        assert_eq!(sliced.share_done(), 1.0);
+        let [planned, sliced] = [&self.planned, &self.sliced].map(|frame| *frame.plan().counts());
+        if planned.kept == sliced.kept {
+            let rays = planned.rays;
+            assert_eq!(planned, Counts { rays, ..sliced }, "{method}, {view:?}");
+        }
     }
 }
 

@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use glam::Vec3;
 
 use super::View;
+use super::allowance::Allowance;
 use super::bounds::Bounds;
 use super::field::Field;
 use super::finish::{Scope, finish};
@@ -16,11 +17,11 @@ use super::memory::{MOST, Memory};
 use super::plan::{Plan, Strategy};
 use super::projected::is_before;
 use super::projector::Projector;
-use super::search::{Found, Question, Room};
+use super::search::{Found, Members, Question, Room, Search, SearchPosition};
 use super::shade;
 use crate::method::Method;
 use crate::method::exact::Stage;
-use crate::scene::{Rays, Scene, Size};
+use crate::scene::{Body, Rays, Scene, Size};
 
 /// What is seen at a pixel.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,11 +60,31 @@ pub struct Frame {
     /// The least and the greatest finite root seen.
     range: Option<[f32; 2]>,
     memory: Memory,
-    /// Which of all pictures this is, and which one it differs from in nothing but `redone`.
+    /// Which of all pictures this is, and which one it differs from in nothing but its parts.
     edition: u64,
     differs_from: Option<u64>,
-    redone: Vec<Bounds>,
+    /// The parts that are made, which have no pixel in common: the whole, or where spheres changed.
+    parts: Vec<Bounds>,
+    /// Whether they are the whole.
+    is_whole: bool,
+    stage: Work,
 }
+
+/// What a frame is at.
+#[derive(Debug, Clone, Copy, Default)]
+enum Work {
+    /// What the method sees.
+    Found(SearchPosition),
+    /// What `exact` sees, to hold the method to it.
+    Truth(SearchPosition),
+    /// What the view shows of it, in this part from this row on.
+    Finish(usize, i16),
+    #[default]
+    Done,
+}
+
+/// So many rows are finished at a time.
+const BAND: i16 = 4;
 
 /// Numbers all pictures of this process.
 static EDITIONS: AtomicU64 = AtomicU64::new(1);
@@ -77,6 +98,15 @@ impl Frame {
     /// Asks `method` what the rays hit, and works out what the view shows of it. What the last frame
     /// found is kept where it still holds.
     pub fn render(&mut self, scene: &Scene, rays: &Rays, method: Method, view: View) {
+        self.begin(scene, rays, method, view);
+        self.go_on(scene, rays, &mut Allowance::endless());
+    }
+
+    /// Begins what [`Frame::render`] does; what was begun before is put away.
+    pub fn begin(&mut self, scene: &Scene, rays: &Rays, method: Method, view: View) {
+        if !self.is_done() {
+            self.memory.forget();
+        }
         let aimed = self.field.aim(rays);
         let constant_b = self.field.constant_b();
         let plan = Plan::new(scene, rays, constant_b, method, view);
@@ -84,11 +114,47 @@ impl Frame {
         self.plan = plan;
         self.plan.counts.rays = if aimed { self.size().area() as u64 } else { 0 };
         if self.memory.find_changes(&scene.bodies, same) {
-            self.update(scene, rays);
+            self.begin_mending(scene, rays);
         } else {
-            self.start(scene, rays);
+            self.begin_whole(scene, rays);
         }
-        self.find_range();
+    }
+
+    /// Goes on, while the allowance lasts, with what was begun for this scene and these rays; whether
+    /// it is done. Until then nothing is to be asked of this frame.
+    ///
+    /// However often it is put down, what comes out is the same to the bit.
+    pub fn go_on(&mut self, scene: &Scene, rays: &Rays, allowance: &mut Allowance) -> bool {
+        while !self.is_done() && !allowance.is_used_up() {
+            match self.stage {
+                Work::Done => {}
+                Work::Found(_) | Work::Truth(_) => self.go_on_searching(scene, rays, allowance),
+                Work::Finish(part, row) => self.finish_rows(scene, (part, row), allowance),
+            }
+        }
+        self.is_done()
+    }
+
+    /// Whether what was begun is done.
+    pub const fn is_done(&self) -> bool {
+        matches!(self.stage, Work::Done)
+    }
+
+    /// About which share of it is done, from 0 to 1.
+    pub fn share_done(&self) -> f64 {
+        let spheres = if self.is_whole {
+            self.plan.spheres() as usize
+        } else {
+            self.there.len()
+        };
+        let searches = if self.plan.compares() { 2.0 } else { 1.0 };
+        let searched = match self.stage {
+            Work::Found(position) => position.share(spheres),
+            Work::Truth(position) => 1.0 + position.share(spheres),
+            Work::Finish(..) => searches,
+            Work::Done => return 1.0,
+        };
+        0.95 * searched / searches
     }
 
     /// The range of depths; where it is another one, each pixel that is seen looks different.
@@ -107,8 +173,8 @@ impl Frame {
     pub fn render_all(&mut self, scene: &Scene, rays: &Rays, method: Method, view: View) {
         self.field.aim(rays);
         self.plan = Plan::of_everything(scene, rays, method, view);
-        self.start(scene, rays);
-        self.find_range();
+        self.begin_whole(scene, rays);
+        self.go_on(scene, rays, &mut Allowance::endless());
     }
 
     /// Only works out where each sphere can be met, as the first part of a whole frame, and forgets it;
@@ -119,27 +185,18 @@ impl Frame {
     }
 
     /// The whole picture anew.
-    fn start(&mut self, scene: &Scene, rays: &Rays) {
+    fn begin_whole(&mut self, scene: &Scene, rays: &Rays) {
         self.edition = EDITIONS.fetch_add(1, Ordering::Relaxed);
         self.differs_from = None;
         self.memory.forget();
-        let (room, plan) = (&mut self.room, &mut self.plan);
-        let question = Question::new(plan, &self.field, &scene.bodies, rays);
-        self.found
-            .search_all(&question, room, &mut plan.counts, |bodies, bounds| {
-                self.memory.learn(bodies, bounds);
-            });
-        self.memory.complete(&scene.bodies);
-        if plan.compares() {
-            let question = question.of_exact();
-            self.truth
-                .search_all(&question, room, &mut plan.truth, |_, _| ());
-        }
-        self.finish(scene, &[Bounds::whole(rays.size)]);
+        self.parts.clear();
+        self.parts.push(Bounds::whole(rays.size));
+        self.is_whole = true;
+        self.begin_search(scene, rays);
     }
 
     /// Only the pixels where a sphere that changed was or is.
-    fn update(&mut self, scene: &Scene, rays: &Rays) {
+    fn begin_mending(&mut self, scene: &Scene, rays: &Rays) {
         let changes = self.memory.changes().len();
         let mut boxes = [Bounds::NONE; MOST];
         let mut parts = 0;
@@ -157,25 +214,60 @@ impl Frame {
         let redone: u64 = parts.iter().map(|part| part.area()).sum();
         let all = self.size().area() as u64;
         if redone > all / 2 {
-            self.start(scene, rays);
+            self.begin_whole(scene, rays);
             return;
         }
         self.plan.counts.kept = all - redone;
         self.differs_from = Some(self.edition);
         self.edition = EDITIONS.fetch_add(1, Ordering::Relaxed);
-        self.redone.clear();
-        self.redone.extend(parts);
-        let (room, plan) = (&mut self.room, &mut self.plan);
+        self.parts.clear();
+        self.parts.extend(parts);
+        self.is_whole = false;
         self.memory.find_within(parts, &mut self.there);
-        let question = Question::new(plan, &self.field, &scene.bodies, rays);
+        self.begin_search(scene, rays);
+    }
+
+    fn begin_search(&mut self, scene: &Scene, rays: &Rays) {
+        self.stage = Work::Found(SearchPosition::default());
+        let question = Question::new(&self.plan, &self.field, &scene.bodies, rays);
         self.found
-            .search_within(&question, &self.there, parts, room, &mut plan.counts);
-        if plan.compares() {
-            let question = question.of_exact();
-            self.truth
-                .search_within(&question, &self.there, parts, room, &mut plan.truth);
+            .begin(&search(&question, self.is_whole, &self.there, &self.parts));
+    }
+
+    fn go_on_searching(&mut self, scene: &Scene, rays: &Rays, allowance: &mut Allowance) {
+        let question = Question::new(&self.plan, &self.field, &scene.bodies, rays);
+        let searched = search(&question, self.is_whole, &self.there, &self.parts);
+        let checked = Search {
+            question: question.of_exact(),
+            ..searched
+        };
+        let (room, plan, memory) = (&mut self.room, &mut self.plan, &mut self.memory);
+        match &mut self.stage {
+            Work::Found(position) => {
+                let learn = |bodies: &[Body], bounds: &[Bounds]| memory.learn(bodies, bounds);
+                let (found, counts) = (&mut self.found, &mut plan.counts);
+                if !found.go_on(&searched, position, room, counts, allowance, learn) {
+                    return;
+                }
+                if self.is_whole {
+                    memory.complete(&scene.bodies);
+                }
+                self.stage = if plan.compares() {
+                    self.truth.begin(&checked);
+                    Work::Truth(SearchPosition::default())
+                } else {
+                    Work::Finish(0, 0)
+                };
+            }
+            Work::Truth(position) => {
+                let (truth, counts) = (&mut self.truth, &mut plan.truth);
+                let learn = |_: &[Body], _: &[Bounds]| ();
+                if truth.go_on(&checked, position, room, counts, allowance, learn) {
+                    self.stage = Work::Finish(0, 0);
+                }
+            }
+            Work::Finish(..) | Work::Done => {}
         }
-        self.finish(scene, parts);
     }
 
     /// Whether the roots that are seen are only about where the method has them.
@@ -183,16 +275,42 @@ impl Frame {
         self.plan.way() == Strategy::Certified && !self.plan.view().shows_roots()
     }
 
-    /// Works out within these parts what the view shows of what was found.
-    fn finish(&mut self, scene: &Scene, parts: &[Bounds]) {
+    /// Works out what the view shows of what was found in the next rows of a part.
+    fn finish_rows(
+        &mut self,
+        scene: &Scene,
+        (number, row): (usize, i16),
+        allowance: &mut Allowance,
+    ) {
+        let Some(&part) = self.parts.get(number) else {
+            self.stage = Work::Done;
+            return self.find_range();
+        };
+        let top = row.max(part.top);
+        let rows = Bounds {
+            top,
+            bottom: part.bottom.min(top.saturating_add(BAND - 1)),
+            ..part
+        };
         let scope = Scope {
             field: &self.field,
             bodies: &scene.bodies,
         };
-        for &part in parts {
-            let (found, truth) = (&mut self.found, &mut self.truth);
-            finish(scope, &mut self.plan, part, found, truth);
-        }
+        let work = |plan: &Plan| plan.counts.work() + plan.truth.work();
+        let before = work(&self.plan);
+        finish(
+            scope,
+            &mut self.plan,
+            rows,
+            &mut self.found,
+            &mut self.truth,
+        );
+        allowance.spend(work(&self.plan) - before + rows.area() / 8);
+        self.stage = if rows.bottom < part.bottom {
+            Work::Finish(number, rows.bottom + 1)
+        } else {
+            Work::Finish(number + 1, 0)
+        };
     }
 
     /// Which of all pictures this is.
@@ -205,7 +323,7 @@ impl Frame {
         if edition == self.edition {
             Some(&[])
         } else if self.differs_from == Some(edition) {
-            Some(&self.redone)
+            Some(&self.parts)
         } else {
             None
         }
@@ -373,6 +491,24 @@ impl Frame {
         // About as far away as each other: only the method can tell.
         let order = |(x, y): (u32, u32)| self.hit(scene, x, y).map(|hit| (hit.t, hit.body));
         order(there) > order(here)
+    }
+}
+
+/// What a frame searches: for all spheres, or for those that are `there` in its parts.
+const fn search<'a>(
+    question: &Question<'a>,
+    is_whole: bool,
+    there: &'a [u32],
+    parts: &'a [Bounds],
+) -> Search<'a> {
+    Search {
+        question: *question,
+        members: if is_whole {
+            Members::All
+        } else {
+            Members::These(there)
+        },
+        parts,
     }
 }
 

@@ -8,6 +8,7 @@
     reason = "a formula in lanes vectorises only if all of it is in one place"
 )]
 
+mod allowance;
 mod bounds;
 mod color;
 mod delta;
@@ -30,6 +31,7 @@ mod style;
 mod view;
 mod windows;
 
+pub use allowance::Allowance;
 pub use color::{AnsiColor, ColorDepth, color_of};
 pub use frame::{Frame, Hit, Lost};
 pub use image::{Cell, Image};

@@ -12,6 +12,11 @@ use crate::method::batch::Solutions;
 use crate::method::exact::Stage;
 use crate::scene::{Body, Light, Rays, Scene, Size};
 
+/// About how many certified tests a question to a method takes the time of, and one that the first stage of
+/// `exact` leaves open.
+const QUESTION: u64 = 4;
+const HARD_QUESTION: u64 = 100;
+
 /// How the spheres are asked about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Strategy {
@@ -101,6 +106,20 @@ pub struct Counts {
 }
 
 impl Counts {
+    /// About how much work it was, in certified tests of eight pixels.
+    #[inline(always)]
+    pub(super) fn work(&self) -> u64 {
+        let [first, later @ ..] = self.stages;
+        let _ = first;
+        let spheres = self.asked + self.hidden;
+        let tests = self.hidden_runs + self.tested / super::lanes::SINGLES as u64;
+        let questions = self.solved + self.rounded;
+        spheres
+            + tests
+            + QUESTION * questions
+            + HARD_QUESTION * (self.ties + later.iter().sum::<u64>())
+    }
+
     /// How many tests of one pixel and one sphere the hidden runs would have been.
     pub const fn hidden_tests(&self) -> u64 {
         self.hidden_runs * super::lanes::SINGLES as u64

@@ -11,7 +11,9 @@
 
 use std::array::from_fn;
 use std::cmp::Ordering;
+use std::ops::RangeInclusive;
 
+use super::allowance::Allowance;
 use super::bounds::Bounds;
 use super::delta::{FARTHEST_MISS, normalised_discriminant};
 use super::field::{Field, TILE};
@@ -155,6 +157,58 @@ pub(super) enum Members<'a> {
     These(&'a [u32]),
 }
 
+impl Members<'_> {
+    const fn count(&self, bodies: &[Body]) -> usize {
+        match self {
+            Self::All => bodies.len(),
+            Self::These(numbers) => numbers.len(),
+        }
+    }
+}
+
+/// What is searched: for these spheres, within parts of the picture that have no pixel in common.
+#[derive(Clone, Copy)]
+pub(super) struct Search<'a> {
+    pub question: Question<'a>,
+    pub members: Members<'a>,
+    pub parts: &'a [Bounds],
+}
+
+impl Search<'_> {
+    fn count(&self) -> usize {
+        self.members.count(self.question.bodies)
+    }
+}
+
+/// How far a search has come: with the room, all that it needs to go on.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct SearchPosition {
+    /// The first of the spheres that are asked about together; whether their windows are in the room.
+    first: usize,
+    is_gathered: bool,
+    /// Which of them in their order is next, in which part and, if it was begun there, from which row on.
+    place: usize,
+    part: usize,
+    row: Option<i16>,
+    /// What came of it in the parts before, and the rows and spheres around the eye before it.
+    was_asked: bool,
+    was_hidden: bool,
+    before: [u64; 2],
+    /// The sphere that was last asked about.
+    last: Option<u32>,
+}
+
+impl SearchPosition {
+    /// Which share of the spheres is done with.
+    pub(super) fn share(&self, spheres: usize) -> f64 {
+        (self.first + self.place) as f64 / spheres.max(1) as f64
+    }
+
+    fn is_inside_a_sphere(&self) -> bool {
+        self.part > 0 || self.row.is_some()
+    }
+}
+
 /// Room to work in, kept from frame to frame.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Room {
@@ -194,9 +248,17 @@ struct Candidate<'a> {
     spans: Option<Spans>,
     /// No visible root is below this.
     least: f32,
+    /// The row to begin with.
+    from: i16,
+    /// Once the method was asked so often, the rest waits.
+    enough: u64,
 }
 
 impl Candidate<'_> {
+    fn rows(&self) -> RangeInclusive<i16> {
+        self.from..=self.bounds.bottom
+    }
+
     /// Whether it is wide enough for the rows' own quadratics to pay.
     const fn is_wide(bounds: Bounds) -> bool {
         bounds.right - bounds.left >= WORTH_SPANS
@@ -212,58 +274,55 @@ impl Candidate<'_> {
 }
 
 impl Found {
-    /// Asks about all spheres in the whole picture; `learn` is told where each of them can be met.
-    pub(super) fn search_all(
-        &mut self,
-        question: &Question,
-        room: &mut Room,
-        counts: &mut Counts,
-        mut learn: impl FnMut(&[Body], &[Bounds]),
-    ) {
-        self.clear(question);
-        let whole = [Bounds::whole(question.field.size())];
-        for (first, bodies) in (0..).step_by(MOST).zip(question.bodies.chunks(MOST)) {
-            simd::dispatch(Chunk {
-                question,
-                members: Members::All,
-                first,
-                count: bodies.len(),
-                parts: &whole,
-                room,
-                found: self,
-                counts,
-            });
-            learn(bodies, &room.windows.bounds);
+    /// Forgets what a search will find again.
+    pub(super) fn begin(&mut self, search: &Search) {
+        match search.members {
+            Members::All => self.clear(&search.question),
+            Members::These(_) => {
+                for &part in search.parts {
+                    self.reopen(&search.question, part);
+                }
+            }
         }
-        self.trim(question.field);
     }
 
-    /// Asks again about the spheres of these numbers within parts of the picture that have no pixel in
-    /// common.
-    pub(super) fn search_within(
+    /// Goes on with a search while the allowance lasts; whether it is done. `learn` is told where all of
+    /// some spheres can be met.
+    pub(super) fn go_on(
         &mut self,
-        question: &Question,
-        numbers: &[u32],
-        parts: &[Bounds],
+        search: &Search,
+        position: &mut SearchPosition,
         room: &mut Room,
         counts: &mut Counts,
-    ) {
-        for &part in parts {
-            self.reopen(question, part);
-        }
-        for numbers in numbers.chunks(MOST) {
+        allowance: &mut Allowance,
+        mut learn: impl FnMut(&[Body], &[Bounds]),
+    ) -> bool {
+        let all = search.count();
+        while position.first < all {
+            let count = MOST.min(all - position.first);
             simd::dispatch(Chunk {
-                question,
-                members: Members::These(numbers),
-                first: 0,
-                count: numbers.len(),
-                parts,
+                search,
+                count,
+                position,
                 room,
                 found: self,
                 counts,
+                allowance,
             });
+            if position.place < room.windows.in_order().len() {
+                return false;
+            }
+            if matches!(search.members, Members::All) {
+                let bodies = &search.question.bodies[position.first..][..count];
+                learn(bodies, &room.windows.bounds);
+            }
+            *position = SearchPosition {
+                first: position.first + count,
+                ..SearchPosition::default()
+            };
         }
-        self.trim(question.field);
+        self.trim(search.question.field);
+        true
     }
 
     /// What a pixel has that no sphere was asked about.
@@ -421,7 +480,7 @@ impl Found {
         changed
     }
 
-    /// Asks the method itself, row by row.
+    /// Asks the method itself, row by row; the row to go on from, if it was asked enough for now.
     #[inline(never)]
     fn ask_method(
         &mut self,
@@ -429,10 +488,15 @@ impl Found {
         candidate: &Candidate,
         answers: &mut Solutions,
         counts: &mut Counts,
-    ) {
+    ) -> Option<i16> {
         let (field, bar) = (question.field, bar(candidate.least));
         let mut changed = false;
-        for y in candidate.bounds.top..=candidate.bounds.bottom {
+        let mut stopped = None;
+        for y in candidate.rows() {
+            if counts.solved >= candidate.enough {
+                stopped = Some(y);
+                break;
+            }
             let columns = candidate.columns(y);
             let run = field.run(y, columns);
             if run.is_empty() {
@@ -464,6 +528,7 @@ impl Found {
                 self.measure(tile);
             }
         }
+        stopped
     }
 
     /// Asks `exact` and notes which stage was sure of the class.
@@ -543,40 +608,24 @@ impl Kernel for Gathering<'_> {
     }
 }
 
-/// Some spheres to find the windows of and to ask about.
+/// Some spheres to find the windows of and to ask about, or to go on with.
 struct Chunk<'a> {
-    question: &'a Question<'a>,
-    members: Members<'a>,
-    /// The number of the first one, if all are asked about.
-    first: u32,
+    search: &'a Search<'a>,
     count: usize,
-    parts: &'a [Bounds],
+    position: &'a mut SearchPosition,
     room: &'a mut Room,
     found: &'a mut Found,
     counts: &'a mut Counts,
+    allowance: &'a mut Allowance,
 }
 
 impl Kernel for Chunk<'_> {
     #[inline(always)]
     fn run(mut self) {
-        let question = self.question;
-        let (lenses, interest) = ((&question.lens, &question.projector), question.interest);
-        let windows = &mut self.room.windows;
-        let part = self.parts.iter().copied().reduce(Bounds::union);
-        let part = part.unwrap_or(Bounds::NONE);
-        match self.members {
-            Members::All => {
-                let bodies = &question.bodies[self.first as usize..][..self.count];
-                let sphere = |i: usize| &bodies[i].sphere;
-                windows.gather(lenses, interest, self.count, sphere, part, self.counts);
-            }
-            Members::These(numbers) => {
-                let sphere = |i: usize| question.sphere(numbers[i]);
-                // Those that are not there are not outside the picture, but where nothing changed.
-                let mut counts = Counts::default();
-                windows.gather(lenses, interest, self.count, sphere, part, &mut counts);
-            }
+        if !self.position.is_gathered {
+            self.gather();
         }
+        let question = &self.search.question;
         match (question.field.perspective(), question.roots) {
             (true, true) => self.ask_all::<true, true>(),
             (true, false) => self.ask_all::<true, false>(),
@@ -587,65 +636,115 @@ impl Kernel for Chunk<'_> {
 }
 
 impl Chunk<'_> {
+    #[inline(always)]
+    fn gather(&mut self) {
+        let Search {
+            question,
+            members,
+            parts,
+        } = self.search;
+        let (lenses, interest) = ((&question.lens, &question.projector), question.interest);
+        let windows = &mut self.room.windows;
+        let part = parts.iter().copied().reduce(Bounds::union);
+        let part = part.unwrap_or(Bounds::NONE);
+        match members {
+            Members::All => {
+                let bodies = &question.bodies[self.position.first..][..self.count];
+                let sphere = |i: usize| &bodies[i].sphere;
+                windows.gather(lenses, interest, self.count, sphere, part, self.counts);
+            }
+            Members::These(numbers) => {
+                let numbers = &numbers[self.position.first..];
+                let sphere = |i: usize| question.sphere(numbers[i]);
+                // Those that are not there are not outside the picture, but where nothing changed.
+                let mut counts = Counts::default();
+                windows.gather(lenses, interest, self.count, sphere, part, &mut counts);
+            }
+        }
+        self.position.is_gathered = true;
+        self.allowance.spend(self.count as u64);
+    }
+
     /// Asks about the spheres that nothing hides.
     #[inline(always)]
     fn ask_all<const PERSPECTIVE: bool, const ROOTS: bool>(&mut self) {
-        let question = self.question;
+        let question = &self.search.question;
         let is_certified = question.is_certified();
         let leaves_out = question.interest.way != Strategy::Everything;
-        let mut last = None;
-        for place in 0..self.room.windows.in_order().len() {
-            let i = self.room.windows.in_order()[place] as usize;
+        let mut at = *self.position;
+        let mut work = self.counts.work();
+        while at.place < self.room.windows.in_order().len() {
+            let spent = self.counts.work();
+            self.allowance.spend(spent - work);
+            work = spent;
+            if self.allowance.is_used_up() {
+                break;
+            }
+            let i = self.room.windows.in_order()[at.place] as usize;
             let (bounds, least) = (self.room.windows.bounds[i], self.room.windows.least[i]);
-            let number = match self.members {
-                Members::All => self.first + i as u32,
-                Members::These(numbers) => numbers[i],
+            let number = match self.search.members {
+                Members::All => (at.first + i) as u32,
+                Members::These(numbers) => numbers[at.first + i],
             };
             let sphere = question.sphere(number);
-            // Of equal spheres the first listed is seen.
-            if last == Some(sphere) && leaves_out {
-                self.counts.hidden += 1;
-                continue;
-            }
-            last = Some(sphere);
-            let [mut asked, mut hidden] = [false; 2];
-            let (rows, around) = (self.counts.rows, self.counts.around);
-            for &part in self.parts {
-                let bounds = bounds.within(part);
-                if bounds.is_empty() {
+            if !at.is_inside_a_sphere() {
+                // Of equal spheres the first listed is seen.
+                if leaves_out && at.last.is_some_and(|last| question.sphere(last) == sphere) {
+                    self.counts.hidden += 1;
+                    at.place += 1;
                     continue;
                 }
+                at.last = Some(number);
+                (at.was_asked, at.was_hidden) = (false, false);
+                at.before = [self.counts.rows, self.counts.around];
+            }
+            while let Some(&part) = self.search.parts.get(at.part) {
+                let bounds = bounds.within(part);
                 let hides = |found: &Found| {
                     found.hides(question.field, bounds, least)
                         || (PERSPECTIVE
                             && !is_small(bounds)
                             && found.hides_around(question, sphere, bounds))
                 };
-                if is_certified && hides(self.found) {
-                    hidden = true;
-                    continue;
+                if bounds.is_empty() {
+                } else if is_certified && at.row.is_none() && hides(self.found) {
+                    at.was_hidden = true;
+                } else {
+                    at.was_asked = true;
+                    at.row = self.ask::<PERSPECTIVE, ROOTS>(number, bounds, least, at.row);
+                    if at.row.is_some() {
+                        break;
+                    }
                 }
-                asked = true;
-                self.ask::<PERSPECTIVE, ROOTS>(number, bounds, least);
+                at.part += 1;
+            }
+            if at.row.is_some() {
+                continue;
             }
             // Parts that lie side by side have rows in common.
             let height = u64::from(question.field.size().height);
+            let [rows, around] = at.before;
             self.counts.rows = self.counts.rows.min(rows + height);
             self.counts.around = self.counts.around.min(around + 1);
-            self.counts.asked += u64::from(asked);
-            self.counts.hidden += u64::from(hidden & !asked);
+            self.counts.asked += u64::from(at.was_asked);
+            self.counts.hidden += u64::from(at.was_hidden & !at.was_asked);
+            (at.place, at.part) = (at.place + 1, 0);
         }
+        self.allowance.spend(self.counts.work() - work);
+        *self.position = at;
     }
 
-    /// Asks about a sphere within `bounds`.
+    /// Asks about a sphere within `bounds`, from a row on; the row to go on from, if it was asked about
+    /// enough for now.
     #[inline(always)]
     fn ask<const PERSPECTIVE: bool, const ROOTS: bool>(
         &mut self,
         number: u32,
         bounds: Bounds,
         least: f32,
-    ) {
-        let question = self.question;
+        from: Option<i16>,
+    ) -> Option<i16> {
+        let question = &self.search.question;
         let sphere = question.sphere(number);
         let reach = question.interest.reach(least);
         let projected = (question.is_certified() && reach == Reach::Seen)
@@ -654,6 +753,7 @@ impl Chunk<'_> {
             .filter(|_| question.field.ordinary());
         // The method itself is dearer to ask than the test.
         let is_worth_spans = Candidate::is_wide(bounds) || !question.is_certified();
+        let (found, counts) = (&mut *self.found, &mut *self.counts);
         let candidate = Candidate {
             number,
             sphere,
@@ -662,13 +762,14 @@ impl Chunk<'_> {
                 .then(|| question.projector.spans(sphere, reach))
                 .flatten(),
             least,
+            from: from.unwrap_or(bounds.top),
+            enough: counts.solved + self.allowance.questions(),
         };
-        let (found, counts) = (&mut *self.found, &mut *self.counts);
         if let Some(projected) = &projected {
-            ask_certified::<PERSPECTIVE, ROOTS>(question, &candidate, projected, found, counts);
+            ask_certified::<PERSPECTIVE, ROOTS>(question, &candidate, projected, found, counts)
         } else {
             counts.around += u64::from(PERSPECTIVE && question.projector.inner(sphere) > 0.0);
-            found.ask_method(question, &candidate, &mut self.room.answers, counts);
+            found.ask_method(question, &candidate, &mut self.room.answers, counts)
         }
     }
 }
@@ -681,7 +782,7 @@ fn ask_certified<const PERSPECTIVE: bool, const ROOTS: bool>(
     projected: &Projected,
     found: &mut Found,
     counts: &mut Counts,
-) {
+) -> Option<i16> {
     let field = question.field;
     let number = candidate.number;
     if !PERSPECTIVE && field.constant_b() {
@@ -694,8 +795,7 @@ fn ask_certified<const PERSPECTIVE: bool, const ROOTS: bool>(
             projected,
             b: dot(o, field.shared_singles()),
         };
-        test.ask_rows(found, candidate, counts);
-        return;
+        return test.ask_rows(found, candidate, counts);
     }
     let columns = candidate.bounds.right - candidate.bounds.left;
     let is_small = is_small(candidate.bounds);
@@ -707,6 +807,7 @@ fn ask_certified<const PERSPECTIVE: bool, const ROOTS: bool>(
             b: 0.0,
         };
         test.ask_box(found, candidate, counts);
+        None
     } else {
         let test = CertifiedTest::<PERSPECTIVE, ROOTS, false, 1> {
             question,
@@ -716,8 +817,9 @@ fn ask_certified<const PERSPECTIVE: bool, const ROOTS: bool>(
         };
         if is_small {
             test.ask_box(found, candidate, counts);
+            None
         } else {
-            test.ask_rows(found, candidate, counts);
+            test.ask_rows(found, candidate, counts)
         }
     }
 }
@@ -742,18 +844,27 @@ impl<const PERSPECTIVE: bool, const ROOTS: bool, const CONSTANT_B: bool, const R
 {
     const COLUMNS: usize = SINGLES / ROWS;
 
-    /// Tests the patches that may see the sphere, row by row.
+    /// Tests the patches that may see the sphere, row by row; the row to go on from, if the method was
+    /// asked enough for now.
     #[inline(always)]
-    fn ask_rows(&self, found: &mut Found, candidate: &Candidate, counts: &mut Counts) {
+    fn ask_rows(
+        &self,
+        found: &mut Found,
+        candidate: &Candidate,
+        counts: &mut Counts,
+    ) -> Option<i16> {
         let stride = self.question.field.stride();
         let bar = bar(candidate.least);
         // Patches begin at the span's own left edge. One that would leave the picture begins earlier:
         // asking twice, or beyond an edge, changes nothing.
         let latest = stride - Self::COLUMNS;
-        for y in candidate.bounds.top..=candidate.bounds.bottom {
+        for y in candidate.rows() {
             let [left, right] = candidate.columns(y);
             if left > right {
                 continue;
+            }
+            if counts.solved >= candidate.enough {
+                return Some(y);
             }
             counts.note_rows(1, [left, right]);
             let (row, tiles) = (y as usize * stride, y as usize / TILE * found.tiles.across);
@@ -763,6 +874,7 @@ impl<const PERSPECTIVE: bool, const ROOTS: bool, const CONSTANT_B: bool, const R
                 found.note_change(tiles + x / TILE, changed);
             }
         }
+        None
     }
 
     /// Tests the patches of a sphere that is no wider than one of them.
