@@ -14,7 +14,7 @@ use ratatui::crossterm::event::{
 use ratatui::layout::Rect;
 use ratatui::style::Color;
 use rayscope::explain::{Digits, number};
-use rayscope::explorer::action::{Action, markdown};
+use rayscope::explorer::action::{Action, Column, markdown};
 use rayscope::explorer::{Explorer, Options, Request, Setting, Workplace};
 use rayscope::geometry::Ray;
 use rayscope::lab::{BenchQueue, HEADER};
@@ -314,7 +314,13 @@ fn making_a_pixel_tangent_sets_the_radius_for_which_the_discriminant_is_zero() {
 fn every_change_can_be_undone_and_done_again() {
     let mut person = Person::opens("trio", 80, 24);
     let before = person.explorer.scene().clone();
-    person.presses("x Y z g G w a s d W A e E + - c tab x i o delete ] T");
+    person
+        .presses("x Y z g G w a s d W A e E + -")
+        .commands("look-at");
+    person
+        .presses("tab x i")
+        .commands("duplicate")
+        .presses("delete ] T");
     person.commands("set radius 0.75");
     let after = person.explorer.scene().clone();
     assert_ne!(before, after);
@@ -327,7 +333,7 @@ fn every_change_can_be_undone_and_done_again() {
         person.presses("U");
     }
     assert_eq!(*person.explorer.scene(), after);
-    person.presses("R");
+    person.commands("reset");
     assert_eq!(*person.explorer.scene(), before);
     person.presses("u");
     assert_eq!(*person.explorer.scene(), after);
@@ -633,6 +639,148 @@ fn commands_complete_and_say_what_they_expected() {
 }
 
 #[test]
+fn the_command_line_lists_what_a_word_could_mean() {
+    let mut person = Person::opens("tutorial", 80, 24);
+    person.presses(":").types("tangent");
+    person.shows("cursor to the nearest tangent pixel");
+    person.shows("make the pixel under the cursor tangent");
+    person.presses("down down enter").shows("r = 0");
+    person
+        .presses("esc :")
+        .types("mthd")
+        .shows("evaluate the quadratic by this method");
+    person
+        .presses("esc :")
+        .types("method te")
+        .presses("tab enter");
+    assert_eq!(person.explorer.viewpoint().method, Method::Textbook);
+    person.presses(":").types("cursor-l").presses("tab enter");
+    assert_eq!(person.explorer.cursor(), (19, 20), "a name of former days");
+    person
+        .presses(":")
+        .types("zzz")
+        .presses("tab enter")
+        .shows("no command");
+}
+
+#[test]
+fn the_menu_has_every_action_and_does_what_is_chosen() {
+    let mut person = Person::opens("tutorial", 80, 24);
+    insta::assert_snapshot!("menu_80x24", person.presses("space").screen());
+    for column in Column::ALL {
+        person.shows(column.title());
+        for row in column.rows() {
+            person.shows(row[0].row());
+        }
+        let list = person.presses(&column.letter().to_string()).screen();
+        for action in column.actions() {
+            let line = format!(" {} {}", action.letter(), action.name());
+            assert!(list.contains(&line), "no {line} in\n{list}");
+            if !":?".contains(action.letter()) {
+                let help: String = action.help().chars().take(40).collect();
+                person.presses(&action.letter().to_string()).shows(&help);
+            }
+        }
+        person.presses("esc");
+    }
+    person.presses("esc").shows("─ view 40×40");
+
+    person.presses("space enter").shows("step ");
+    person.presses("space n l enter").shows(" machine ");
+    person.presses("f1 t enter").shows("touches the sphere");
+    let before = person.explorer.scene().clone();
+    person.presses("space b a");
+    assert_eq!(*person.explorer.scene(), before, "a letter only chooses");
+    person.presses("enter");
+    assert_eq!(person.explorer.scene().bodies.len(), 2);
+
+    let mut small = Person::opens("opening", 40, 12);
+    insta::assert_snapshot!("menu_40x12", small.presses("space").screen());
+    small.presses("b g enter");
+    assert_eq!(small.explorer.scene().bodies[0].sphere.radius, 11.0);
+}
+
+#[test]
+fn the_menu_takes_the_mouse_once_it_is_on_and_says_which() {
+    let mut person = Person::opens("tutorial", 80, 24);
+    person.presses("space").shows("mouse (off)    $");
+    person.presses("esc $ space").shows("mouse (on)     $");
+    let screen = person.screen();
+    let (row, line) = screen
+        .lines()
+        .enumerate()
+        .find(|(_, line)| line.contains("tangent        t"))
+        .expect("a row");
+    let column = line.chars().position(|c| c == 't').expect("a word");
+    person.explorer.update(&Event::Mouse(MouseEvent {
+        kind: MouseEventKind::Down(MouseButton::Left),
+        column: column as u16,
+        row: row as u16,
+        modifiers: KeyModifiers::NONE,
+    }));
+    person.shows("touches the sphere");
+}
+
+#[test]
+fn nothing_typed_into_help_menu_or_a_question_changes_the_scene() {
+    let printable: String = (' '..='~').collect();
+    let texts = [
+        "grow the sphere",
+        "tangent",
+        "who is nearer? gg xyz",
+        &printable,
+    ];
+    let places = [
+        ("?", "esc"),
+        ("? /", "esc esc"),
+        ("space", "esc esc"),
+        ("f1 b", "esc esc"),
+        ("x q", "esc"),
+    ];
+    for (opens, closes) in places {
+        for text in texts {
+            let mut person = Person::opens("trio", 80, 24);
+            person.presses(opens);
+            let before = person.explorer.scene().clone();
+            // What answers the question is no text that is typed into it.
+            let answers: &[char] = if opens == "x q" { &['s', 'D'] } else { &[] };
+            let text = text.replace(answers, "");
+            for c in text.chars() {
+                person.types(&c.to_string()).screen();
+            }
+            assert_eq!(*person.explorer.scene(), before, "{opens}: {text}");
+            assert_eq!(person.explorer.ended(), None);
+            person.presses(closes).presses("esc");
+            assert_eq!(*person.explorer.scene(), before, "{opens}: {text}");
+        }
+    }
+}
+
+#[test]
+fn a_line_of_the_help_is_found_and_done() {
+    let mut person = Person::opens("tutorial", 80, 24);
+    let whole = person.presses("?").screen();
+    person.presses("/").types("tangent");
+    let found = person.screen();
+    assert!(!found.contains("orbit"), "{found}");
+    person.shows("make the pixel under the cursor tangent");
+    person.shows("2 lines");
+    assert_eq!(person.presses("esc").screen(), whole, "esc clears first");
+    person
+        .presses("/")
+        .types("nearest tangent")
+        .presses("enter");
+    person.shows("touches the sphere");
+    assert_ne!(person.explorer.cursor(), (20, 20));
+    person
+        .presses("? /")
+        .types("this many colours")
+        .presses("enter")
+        .shows(":color");
+    person.presses("esc ? esc").shows("─ view 40×40");
+}
+
+#[test]
 fn a_paste_is_no_burst_of_commands() {
     let mut person = Person::opens("tutorial", 80, 24);
     let before = person.explorer.scene().clone();
@@ -648,10 +796,10 @@ fn a_paste_is_no_burst_of_commands() {
 #[test]
 fn all_spheres_of_a_line_are_listed_and_one_can_be_chosen() {
     let mut person = Person::opens("trio", 80, 24);
-    person.presses("n").shows("spheres on this line");
+    person.presses("N").shows("spheres on this line");
     let shown = |p: &Person| p.explorer.reading().unwrap().subject.as_ref().unwrap().body;
     let first = shown(&person);
-    person.presses("space");
+    person.presses("n");
     let second = shown(&person);
     assert_ne!(first, second);
     person.presses("left right");
@@ -1342,7 +1490,7 @@ proptest! {
 fn keys_after_another_scene_act_on_that_scene() {
     // All in one go, before anything is drawn: the page's scene has one sphere, not three.
     let mut person = Person::opens("trio", 80, 24);
-    person.presses("space").shows("sphere 2 of 3");
+    person.presses("n").shows("sphere 2 of 3");
     person.presses(":");
     person.explorer.update(&Event::Paste("tour 4".into()));
     for key in ["enter", "T"] {

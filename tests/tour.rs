@@ -193,7 +193,7 @@ fn the_tour_has_the_tutorials_numbers() {
     }
     // The other steps of the parametric ray, one after the other.
     let mut student = Student::on_page(2, 1, SMALL);
-    student.presses("n");
+    student.presses("N");
     for (n, bead) in ["2, 5, 7", "4, 10, 14", "6, 15, 21", "8, 20, 28"]
         .into_iter()
         .enumerate()
@@ -201,7 +201,7 @@ fn the_tour_has_the_tutorials_numbers() {
         student
             .shows(&format!("c    {bead}"))
             .shows(&format!("{}/4", n + 1));
-        student.presses("n");
+        student.presses("N");
     }
 }
 
@@ -336,7 +336,11 @@ fn chapters_are_reached_by_name_number_and_key() {
 #[test]
 fn the_style_that_a_person_likes_stays() {
     let mut student = Student::on_page(5, 1, SMALL);
-    student.presses("b b f").shows("   ascii   ");
+    student
+        .types("next-style")
+        .types("next-style")
+        .presses("f")
+        .shows("   ascii   ");
     student.types("tour 6").shows("   tutorial   ");
 }
 

@@ -167,13 +167,16 @@ mod tests {
         for (line, keys) in [
             ("tutorial", ""),
             ("tutorial --method textbook", "llljj⏎⏎⏎⏎⏎⏎⏎"),
-            ("trio", "naaaWWee"),
-            ("trio --style ascii", "n  x+"),
+            ("trio", "NaaaWWee"),
+            ("trio --style ascii", "Nnnx+"),
             ("trio --aspect 1.7", "jjjjG:set up.x 0.25⏎"),
-            ("far --method haines", "nn6CC"),
-            ("behind", "n:sphere 3⏎vv"),
+            (
+                "far --method haines",
+                "NN6:next-comparison⏎:next-comparison⏎",
+            ),
+            ("behind", "N:sphere 3⏎vv"),
             ("inside", "3((("),
-            ("planet", "N:step C⏎"),
+            ("planet", ":previous-place⏎:step C⏎"),
             ("tour a-b-c --page 2", "lllkkk,,"),
             ("tour 8 --page 1", "Vllx"),
             ("tour 1", "tddd"),
@@ -194,7 +197,7 @@ mod tests {
         press(&mut explorer, "x");
         assert!(explorer.link().is_ok());
         press(&mut explorer, "\t");
-        for keys in ["o", "ui", "uU:sphere 2⏎x"] {
+        for keys in [":duplicate⏎", "ui", "uU:sphere 2⏎x"] {
             press(&mut explorer, keys);
             let said = explorer.link().unwrap_err();
             assert!(said.contains("save it"), "{keys}: {said}");

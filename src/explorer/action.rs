@@ -1,9 +1,67 @@
-//! Everything a person can do by one key, in one table.
+//! Everything a person can do by one key or by the menu, in one table.
 //!
-//! The table feeds the dispatch of keys, the footer, the help page, the names of the command line
-//! and the keys section of the guide.
+//! The table feeds the dispatch of keys, the menu, the footer, the help page, the names of the command
+//! line and the keys section of the guide.
 
 use crate::explorer::key::Key;
+use crate::scene::Camera;
+use crate::text::by_name;
+
+/// A column of the menu.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Column {
+    /// What is seen, and from where.
+    Look,
+    /// One pixel, step by step, and the tour.
+    Learn,
+    /// Spheres, files, history.
+    Build,
+    /// Methods, their errors and times.
+    Numerics,
+}
+
+impl Column {
+    /// All columns, from left to right.
+    pub const ALL: [Self; 4] = [Self::Look, Self::Learn, Self::Build, Self::Numerics];
+
+    /// Its title.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Look => "Look",
+            Self::Learn => "Learn",
+            Self::Build => "Build",
+            Self::Numerics => "Numerics",
+        }
+    }
+
+    /// The letter that opens it in the menu.
+    pub const fn letter(self) -> char {
+        match self {
+            Self::Look => 'l',
+            Self::Learn => 'e',
+            Self::Build => 'b',
+            Self::Numerics => 'n',
+        }
+    }
+
+    /// Its actions, in order.
+    pub fn actions(self) -> impl Iterator<Item = Action> {
+        let all = Action::ALL.iter().copied();
+        all.filter(move |action| action.group().column() == self)
+    }
+
+    /// Its rows: what belongs together, such as the four ways to move the cursor, is one row.
+    pub fn rows(self) -> Vec<Vec<Action>> {
+        let mut rows: Vec<Vec<Action>> = Vec::new();
+        for action in self.actions() {
+            match rows.last_mut() {
+                Some(row) if row[0].row() == action.row() => row.push(action),
+                _ => rows.push(vec![action]),
+            }
+        }
+        rows
+    }
+}
 
 /// The heading under which the help page lists an action.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -12,18 +70,18 @@ pub enum Group {
     Cursor,
     /// Moving the eye.
     Camera,
-    /// Choosing and changing spheres.
-    Spheres,
     /// What the picture and the panel show.
     View,
-    /// Walking through the mathematics of one pixel.
+    /// The lens, and walking through one pixel.
     Steps,
-    /// Errors and times of the methods on this picture.
-    Laboratory,
     /// Walking through the chapters that tell it all.
     Tour,
+    /// Choosing and changing spheres.
+    Spheres,
     /// Files, history, the program itself.
     Program,
+    /// Methods, and their errors and times on this picture.
+    Laboratory,
 }
 
 impl Group {
@@ -31,12 +89,12 @@ impl Group {
     pub const ALL: [Self; 8] = [
         Self::Cursor,
         Self::Camera,
-        Self::Spheres,
         Self::View,
         Self::Steps,
-        Self::Laboratory,
         Self::Tour,
+        Self::Spheres,
         Self::Program,
+        Self::Laboratory,
     ];
 
     /// The heading.
@@ -44,18 +102,31 @@ impl Group {
         match self {
             Self::Cursor => "Cursor",
             Self::Camera => "Camera",
-            Self::Spheres => "Spheres",
             Self::View => "View",
             Self::Steps => "Step by step",
-            Self::Laboratory => "Errors and times",
             Self::Tour => "Tour",
+            Self::Spheres => "Spheres",
             Self::Program => "Program",
+            Self::Laboratory => "Methods, errors and times",
+        }
+    }
+
+    /// The column of the menu that has its actions.
+    pub const fn column(self) -> Column {
+        match self {
+            Self::Cursor | Self::Camera | Self::View => Column::Look,
+            Self::Steps | Self::Tour => Column::Learn,
+            Self::Spheres | Self::Program => Column::Build,
+            Self::Laboratory => Column::Numerics,
         }
     }
 }
 
 macro_rules! actions {
-    ($( #[doc = $help:literal] $variant:ident $name:literal [$($key:literal),*] $group:ident; )*) => {
+    ($(
+        #[doc = $help:literal]
+        $variant:ident $name:literal [$($key:literal),*] $group:ident $letter:literal $row:literal;
+    )*) => {
         /// What one key does.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
         pub enum Action {
@@ -66,7 +137,7 @@ macro_rules! actions {
             /// All actions, in the order of the help page.
             pub const ALL: &[Self] = &[$( Self::$variant, )*];
 
-            /// The name on the command line (`:`).
+            /// The name in the menu and on the command line (`:`).
             pub const fn name(self) -> &'static str {
                 match self { $( Self::$variant => $name, )* }
             }
@@ -85,237 +156,252 @@ macro_rules! actions {
             pub const fn group(self) -> Group {
                 match self { $( Self::$variant => Group::$group, )* }
             }
+
+            /// The letter that chooses it in its column of the menu.
+            pub const fn letter(self) -> char {
+                match self { $( Self::$variant => $letter, )* }
+            }
+
+            /// What it and those that belong to it are called in the menu.
+            pub const fn row(self) -> &'static str {
+                match self { $( Self::$variant => $row, )* }
+            }
         }
     };
 }
 
 actions! {
     /// cursor one pixel left
-    CursorLeft "cursor-left" ["left", "h"] Cursor;
+    CursorLeft "left" ["left", "h"] Cursor 'h' "move cursor";
     /// cursor one pixel right
-    CursorRight "cursor-right" ["right", "l"] Cursor;
+    CursorRight "right" ["right", "l"] Cursor 'l' "move cursor";
     /// cursor one pixel up
-    CursorUp "cursor-up" ["up", "k"] Cursor;
+    CursorUp "up" ["up", "k"] Cursor 'k' "move cursor";
     /// cursor one pixel down
-    CursorDown "cursor-down" ["down", "j"] Cursor;
+    CursorDown "down" ["down", "j"] Cursor 'j' "move cursor";
     /// cursor eight pixels left
-    CursorFarLeft "cursor-far-left" ["shift-left"] Cursor;
+    CursorFarLeft "far-left" ["shift-left"] Cursor 'H' "by eight";
     /// cursor eight pixels right
-    CursorFarRight "cursor-far-right" ["shift-right"] Cursor;
+    CursorFarRight "far-right" ["shift-right"] Cursor 'L' "by eight";
     /// cursor eight pixels up
-    CursorFarUp "cursor-far-up" ["shift-up"] Cursor;
+    CursorFarUp "far-up" ["shift-up"] Cursor 'K' "by eight";
     /// cursor eight pixels down
-    CursorFarDown "cursor-far-down" ["shift-down"] Cursor;
+    CursorFarDown "far-down" ["shift-down"] Cursor 'J' "by eight";
     /// cursor to the centre of the picture
-    CursorCenter "cursor-center" ["'"] Cursor;
+    CursorCenter "center" [] Cursor 'c' "centre";
     /// cursor to the nearest tangent pixel, or the nearest to one
-    SnapTangent "snap-tangent" ["t"] Cursor;
+    SnapTangent "tangent" ["t"] Cursor 't' "tangent";
     /// cursor to the next place worth looking at
-    NextProbe "next-probe" ["n"] Cursor;
+    NextProbe "next-place" ["N"] Cursor 'n' "places";
     /// cursor to the previous place worth looking at
-    PreviousProbe "previous-probe" ["N"] Cursor;
+    PreviousProbe "previous-place" [] Cursor 'N' "places";
 
     /// orbit to the left about the point looked at
-    OrbitLeft "orbit-left" ["a"] Camera;
+    OrbitLeft "orbit-left" ["a"] Camera 'a' "orbit";
     /// orbit to the right
-    OrbitRight "orbit-right" ["d"] Camera;
+    OrbitRight "orbit-right" ["d"] Camera 'd' "orbit";
     /// orbit upwards
-    OrbitUp "orbit-up" ["w"] Camera;
+    OrbitUp "orbit-up" ["w"] Camera 'w' "orbit";
     /// orbit downwards
-    OrbitDown "orbit-down" ["s"] Camera;
+    OrbitDown "orbit-down" ["s"] Camera 's' "orbit";
     /// move the camera left
-    PanLeft "pan-left" ["A"] Camera;
+    PanLeft "slide-left" ["A"] Camera 'A' "slide";
     /// move the camera right
-    PanRight "pan-right" ["D"] Camera;
+    PanRight "slide-right" ["D"] Camera 'D' "slide";
     /// move the camera up
-    PanUp "pan-up" ["W"] Camera;
+    PanUp "slide-up" ["W"] Camera 'W' "slide";
     /// move the camera down
-    PanDown "pan-down" ["S"] Camera;
-    /// dolly: move the camera forward
-    DollyIn "dolly-in" ["e"] Camera;
-    /// dolly: move the camera back
-    DollyOut "dolly-out" ["E"] Camera;
+    PanDown "slide-down" ["S"] Camera 'S' "slide";
+    /// move the camera forward
+    DollyIn "forward" ["e"] Camera 'e' "forward";
+    /// move the camera back
+    DollyOut "backward" ["E"] Camera 'E' "forward";
     /// zoom in: see less, larger
-    ZoomIn "zoom-in" ["+"] Camera;
+    ZoomIn "zoom-in" ["+"] Camera '+' "zoom";
     /// zoom out: see more, smaller
-    ZoomOut "zoom-out" ["-"] Camera;
+    ZoomOut "zoom-out" ["-"] Camera '-' "zoom";
     /// look at the selected sphere
-    LookAtSphere "look-at-sphere" ["c"] Camera;
+    LookAtSphere "look-at" [] Camera 'o' "look at sphere";
     /// camera as the scene has it
-    Home "home" ["home", "0"] Camera;
+    Home "home" ["home", "0"] Camera '0' "home";
 
-    /// select the next sphere
-    NextSphere "next-sphere" ["tab"] Spheres;
-    /// select the previous sphere
-    PreviousSphere "previous-sphere" ["backtab"] Spheres;
-    /// show the next sphere on the line of the ray
-    NextOnLine "next-on-line" ["space"] Spheres;
-    /// select the sphere that the panel shows
-    SelectShown "select-shown" [";"] Spheres;
-    /// move the sphere along +x
-    MoveXPlus "move-x-plus" ["x"] Spheres;
-    /// move the sphere along −x
-    MoveXMinus "move-x-minus" ["X"] Spheres;
-    /// move the sphere along +y
-    MoveYPlus "move-y-plus" ["y"] Spheres;
-    /// move the sphere along −y
-    MoveYMinus "move-y-minus" ["Y"] Spheres;
-    /// move the sphere along +z
-    MoveZPlus "move-z-plus" ["z"] Spheres;
-    /// move the sphere along −z
-    MoveZMinus "move-z-minus" ["Z"] Spheres;
-    /// make the sphere larger
-    Grow "grow" ["g"] Spheres;
-    /// make the sphere smaller
-    Shrink "shrink" ["G"] Spheres;
-    /// coarser steps
-    StepCoarser "step-coarser" ["]"] Spheres;
-    /// finer steps
-    StepFiner "step-finer" ["["] Spheres;
-    /// make the pixel under the cursor tangent: the radius for which Δ = 0
-    MakeTangent "make-tangent" ["T"] Spheres;
-    /// add a sphere in front of the camera
-    Add "add" ["i"] Spheres;
-    /// duplicate the selected sphere
-    Duplicate "duplicate" ["o"] Spheres;
-    /// delete the selected sphere
-    Delete "delete" ["delete"] Spheres;
-    /// type exact values: the numbers of the sphere and the camera
-    Edit "edit" ["="] Spheres;
-
-    /// the other lens: the mathematics of a pixel, or the machine's arithmetic
-    OtherLens "other-lens" ["L"] View;
-    /// next method
-    NextMethod "next-method" ["m"] View;
-    /// previous method
-    PreviousMethod "previous-method" ["M"] View;
     /// next view: shade, class, …
-    NextView "next-view" ["v"] View;
+    NextView "next-view" ["v"] View 'v' "view";
     /// previous view
-    PreviousView "previous-view" ["V"] View;
+    PreviousView "previous-view" ["V"] View 'V' "view";
     /// next style: half, braille, ascii, tutorial
-    NextStyle "next-style" ["b"] View;
+    NextStyle "next-style" [] View 'b' "style";
     /// previous style
-    PreviousStyle "previous-style" ["B"] View;
+    PreviousStyle "previous-style" [] View 'B' "style";
     /// numbers in full precision, or rounded to be read
-    Precision "precision" ["p"] View;
+    Precision "digits" [] View 'p' "digits";
     /// cells taken to be taller
-    AspectTaller "aspect-taller" ["}"] View;
+    AspectTaller "taller" [] View '}' "shape of cells";
     /// cells taken to be wider
-    AspectWider "aspect-wider" ["{"] View;
+    AspectWider "wider" [] View '{' "shape of cells";
     /// next theme: dark, light, high-contrast, monochrome
-    NextTheme "next-theme" ["@"] View;
+    NextTheme "next-theme" ["@"] View '@' "theme";
     /// next number of colours: 256, true, never, 16
-    NextColor "next-color" ["#"] View;
+    NextColor "next-color" ["#"] View '#' "colours";
     /// scroll the panel down
-    ScrollDown "scroll-down" ["pagedown"] View;
+    ScrollDown "scroll-down" ["pagedown"] View 'f' "scroll";
     /// scroll the panel up
-    ScrollUp "scroll-up" ["pageup"] View;
+    ScrollUp "scroll-up" ["pageup"] View 'F' "scroll";
+    /// use the mouse: a click moves the cursor, the wheel zooms; or leave it to select text
+    Mouse "mouse" ["$"] View 'm' "mouse";
+    /// draw the whole screen again
+    Redraw "redraw" ["ctrl-l"] View 'r' "redraw";
 
-    /// panel: A, B, C and Δ
-    PanelQuadratic "panel-quadratic" ["1"] Steps;
-    /// panel: the derivation, a step at a time
-    PanelSteps "panel-steps" ["2"] Steps;
-    /// panel: the plane through ray and centre
-    PanelSlice "panel-slice" ["3"] Steps;
-    /// panel: the curve f(t) = At² + Bt + C
-    PanelCurve "panel-curve" ["4"] Steps;
-    /// panel: the bits of the step's number
-    PanelBits "panel-bits" ["5"] Steps;
-    /// panel: the chosen method beside another
-    PanelCompare "panel-compare" ["6"] Steps;
-    /// panel: error against run time for this picture
-    PanelError "panel-error" ["7"] Steps;
-    /// panel: what this frame needed, what was left out, and why
-    PanelPlan "panel-plan" ["8"] Steps;
     /// open the steps; go to the next one, or reveal its answer
-    NextStep "next-step" ["enter", "."] Steps;
+    NextStep "next" ["enter", "."] Steps 'n' "next step";
     /// previous step
-    PreviousStep "previous-step" ["backspace", ","] Steps;
+    PreviousStep "back" ["backspace", ","] Steps 'b' "back";
     /// first step
-    FirstStep "first-step" ["<"] Steps;
+    FirstStep "first" ["<"] Steps '<' "ends";
     /// last step
-    LastStep "last-step" [">"] Steps;
+    LastStep "last" [">"] Steps '>' "ends";
     /// predict, then reveal: hide picture and results until a key
-    Predict "predict" ["P"] Steps;
+    Predict "predict" ["P"] Steps 'P' "predict";
     /// board: one step, large, for the back row
-    Board "board" ["O"] Steps;
-    /// scrub t forward along the ray
-    ScrubForward "scrub-forward" [")"] Steps;
-    /// scrub t back along the ray
-    ScrubBack "scrub-back" ["("] Steps;
-    /// t to the next landmark of the line: p0, a root, the point closest to the centre
-    NextLandmark "next-landmark" ["*"] Steps;
-    /// t to the landmark before
-    PreviousLandmark "previous-landmark" ["_"] Steps;
-    /// t back to where something is seen
-    ScrubHome "scrub-home" ["/"] Steps;
-    /// compare with the next method
-    NextComparison "next-comparison" ["C"] Steps;
-
-    /// time all methods on this picture, on a thread of its own; again: stop
-    Measure "measure" ["%"] Laboratory;
-
-    /// panel: a dial on this scene; again: the next dial
-    NextDial "next-dial" ["9"] Laboratory;
-    /// turn the dial on, from tame to broken
-    TurnOn "turn-on" ["\\"] Laboratory;
-    /// turn the dial back
-    TurnBack "turn-back" ["|"] Laboratory;
-    /// copy this pixel as a row for `rayscope grade`; again: as a test case in C, in Rust
-    CopyCase "copy-case" ["&"] Laboratory;
+    Board "board" ["O"] Steps 'O' "board";
+    /// show the next sphere on the line of the ray
+    NextOnLine "next-on-line" ["n"] Steps 'o' "sphere on line";
+    /// panel: A, B, C and Δ
+    PanelQuadratic "quadratic" ["1"] Steps '1' "numbers";
+    /// panel: the derivation, a step at a time
+    PanelSteps "steps" ["2"] Steps '2' "steps";
+    /// panel: the plane through ray and centre
+    PanelSlice "slice" ["3"] Steps '3' "side view";
+    /// panel: the curve f(t) = At² + Bt + C
+    PanelCurve "curve" ["4"] Steps '4' "curve";
+    /// move the point p forward along the ray
+    ScrubForward "point-forward" [")"] Steps ')' "point on ray";
+    /// move the point p back along the ray
+    ScrubBack "point-back" ["("] Steps '(' "point on ray";
+    /// p to the next landmark of the line: p0, a root, the point closest to the centre
+    NextLandmark "next-landmark" ["*"] Steps '*' "landmark";
+    /// p to the landmark before
+    PreviousLandmark "previous-landmark" ["_"] Steps '_' "landmark";
+    /// p back to where something is seen
+    ScrubHome "point-home" ["/"] Steps '/' "p to what is seen";
 
     /// open the tour; go to its next page
-    TourForward "tour-forward" ["f"] Tour;
+    TourForward "tour-forward" ["f"] Tour 'f' "tour";
     /// previous page
-    TourBack "tour-back" ["F"] Tour;
+    TourBack "tour-back" ["F"] Tour 'F' "tour";
     /// this page again: everything as the page has it
-    TourAgain "tour-again" ["r"] Tour;
+    TourAgain "tour-again" ["r"] Tour 'r' "page again";
     /// next chapter
-    TourNextChapter "tour-next-chapter" ["ctrl-n"] Tour;
+    TourNextChapter "tour-next-chapter" ["ctrl-n"] Tour 'c' "chapter";
     /// first page of this chapter, or of the one before
-    TourPreviousChapter "tour-previous-chapter" ["ctrl-p"] Tour;
+    TourPreviousChapter "tour-previous-chapter" ["ctrl-p"] Tour 'C' "chapter";
     /// put the tour away and go back to your own scene; return to the tour
-    Tour "tour" ["ctrl-t"] Tour;
+    Tour "tour" ["ctrl-t"] Tour 't' "leave tour";
 
-    /// this help
-    Help "help" ["?", "f1"] Program;
-    /// type a command by name; tab completes
-    CommandLine "command-line" [":"] Program;
+    /// select the next sphere
+    NextSphere "next-sphere" ["tab"] Spheres 'n' "select";
+    /// select the previous sphere
+    PreviousSphere "previous-sphere" ["backtab"] Spheres 'N' "select";
+    /// select the sphere that the panel shows
+    SelectShown "select-shown" [] Spheres 'l' "select shown";
+    /// move the sphere along +x
+    MoveXPlus "move-x-plus" ["x"] Spheres 'x' "move";
+    /// move the sphere along +y
+    MoveYPlus "move-y-plus" ["y"] Spheres 'y' "move";
+    /// move the sphere along +z
+    MoveZPlus "move-z-plus" ["z"] Spheres 'z' "move";
+    /// move the sphere along −x
+    MoveXMinus "move-x-minus" ["X"] Spheres 'X' "move";
+    /// move the sphere along −y
+    MoveYMinus "move-y-minus" ["Y"] Spheres 'Y' "move";
+    /// move the sphere along −z
+    MoveZMinus "move-z-minus" ["Z"] Spheres 'Z' "move";
+    /// make the sphere larger
+    Grow "grow" ["g"] Spheres 'g' "size";
+    /// make the sphere smaller
+    Smaller "smaller" ["G"] Spheres 'G' "size";
+    /// coarser steps
+    StepCoarser "coarser" ["]"] Spheres ']' "step length";
+    /// finer steps
+    StepFiner "finer" ["["] Spheres '[' "step length";
+    /// make the pixel under the cursor tangent: the radius for which Δ = 0
+    MakeTangent "make-tangent" ["T"] Spheres 'T' "make tangent";
+    /// add a sphere in front of the camera
+    Add "add" ["i"] Spheres 'a' "add sphere";
+    /// duplicate the selected sphere
+    Duplicate "duplicate" [] Spheres 'd' "duplicate";
+    /// delete the selected sphere
+    Delete "delete" ["delete"] Spheres 'r' "remove";
+    /// type exact values: the numbers of the sphere and the camera
+    Edit "values" ["="] Spheres 'v' "type values";
+
     /// undo
-    Undo "undo" ["u"] Program;
+    Undo "undo" ["u"] Program 'u' "undo, redo";
     /// redo
-    Redo "redo" ["U", "ctrl-r"] Program;
+    Redo "redo" ["U", "ctrl-r"] Program 'U' "undo, redo";
     /// reset the scene to what was opened (can be undone)
-    Reset "reset" ["R"] Program;
-    /// use the mouse: a click moves the cursor, the wheel zooms; or leave it to select text
-    Mouse "mouse" ["$"] Program;
-    /// draw the whole screen again
-    Redraw "redraw" ["ctrl-l"] Program;
+    Reset "reset" [] Program 'R' "reset";
     /// open a scene
-    Open "open" ["ctrl-o"] Program;
+    Open "open" ["ctrl-o"] Program 'o' "open";
     /// save the scene
-    Save "save" ["ctrl-s"] Program;
+    Save "save" ["ctrl-s"] Program 's' "save";
     /// save the scene under another name
-    SaveAs "save-as" ["ctrl-a"] Program;
+    SaveAs "save-as" ["ctrl-a"] Program 'S' "save";
     /// show and copy the command that reopens this very view
-    Link "link" ["ctrl-y"] Program;
+    Link "link" ["ctrl-y"] Program 'L' "link";
+    /// this menu: all actions, by arrows or letters
+    Menu "menu" ["space", "f1"] Program 'm' "menu";
+    /// type a command by name; what fits is listed
+    CommandLine "command-line" [":"] Program ':' "command";
+    /// all keys and commands
+    Help "help" ["?"] Program '?' "all keys";
     /// stop, for the shell to take over; its `fg` comes back
-    Suspend "suspend" ["ctrl-z"] Program;
+    Suspend "suspend" ["ctrl-z"] Program 't' "stop";
     /// quit; asks if there are unsaved changes
-    Quit "quit" ["q"] Program;
+    Quit "quit" ["q"] Program 'q' "quit";
+
+    /// the other lens: the mathematics of a pixel, or the machine's arithmetic
+    OtherLens "other-lens" ["L"] Laboratory 'l' "other lens";
+    /// next method
+    NextMethod "next-method" ["m"] Laboratory 'm' "method";
+    /// previous method
+    PreviousMethod "previous-method" ["M"] Laboratory 'M' "method";
+    /// panel: the bits of the step's number
+    PanelBits "bits" ["5"] Laboratory '5' "bits";
+    /// panel: the chosen method beside another
+    PanelCompare "compare" ["6"] Laboratory '6' "compare";
+    /// compare with the next method
+    NextComparison "next-comparison" [] Laboratory 'c' "compare with";
+    /// panel: error against run time for this picture
+    PanelError "error" ["7"] Laboratory '7' "error and time";
+    /// time all methods on this picture, on a thread of its own; again: stop
+    Measure "measure" ["%"] Laboratory '%' "measure";
+    /// panel: what this frame needed, what was left out, and why
+    PanelPlan "plan" ["8"] Laboratory '8' "plan of frame";
+    /// panel: a dial on this scene; again: the next dial
+    NextDial "next-dial" ["9"] Laboratory '9' "dial";
+    /// turn the dial on, from tame to broken
+    TurnOn "turn-on" ["\\"] Laboratory '\\' "turn the dial";
+    /// turn the dial back
+    TurnBack "turn-back" ["|"] Laboratory '|' "turn the dial";
+    /// copy this pixel as a row for `rayscope grade`; again: as a test case in C, in Rust
+    CopyCase "copy-case" ["&"] Laboratory '&' "copy pixel";
 }
 
 impl Action {
     /// The action of that name.
     pub fn by_name(name: &str) -> Option<Self> {
-        Self::ALL.iter().copied().find(|a| a.name() == name)
+        by_name(Self::ALL.iter().copied(), Self::name, name)
+    }
+
+    /// What is typed for it in the menu: `space l t`.
+    pub fn prefix(self) -> String {
+        format!("space {} {}", self.group().column().letter(), self.letter())
     }
 
     /// What the keys of this action do to a camera whose pixels are on a grid: they slide it where they
     /// orbit others, since an orbit leaves the grid, and the reverse.
-    #[must_use]
-    pub const fn on_grid(self) -> Self {
+    const fn on_grid(self) -> Self {
         match self {
             Self::OrbitLeft => Self::PanLeft,
             Self::OrbitRight => Self::PanRight,
@@ -326,6 +412,15 @@ impl Action {
             Self::PanUp => Self::OrbitUp,
             Self::PanDown => Self::OrbitDown,
             other => other,
+        }
+    }
+
+    /// What the keys of this action do to that camera.
+    #[must_use]
+    pub fn as_with(self, camera: &Camera) -> Self {
+        match camera.step() {
+            Some(_) => self.on_grid(),
+            None => self,
         }
     }
 
@@ -340,6 +435,7 @@ impl Action {
 
 /// What the footer says: keys and a word, the most useful first.
 pub const FOOTER: &[(&str, &str)] = &[
+    ("space", "menu"),
     ("arrows", "cursor"),
     ("wasd", "camera"),
     ("tab", "sphere"),
@@ -351,15 +447,13 @@ pub const FOOTER: &[(&str, &str)] = &[
     ("?", "help"),
     ("q", "quit"),
     ("1-9", "panels"),
-    ("b", "style"),
     ("xyz", "move"),
     ("g", "grow"),
     ("t", "tangent"),
-    ("n", "probe"),
+    ("n", "next on line"),
     ("*", "landmark"),
     ("u", "undo"),
     ("=", "numbers"),
-    ("p", "digits"),
 ];
 
 /// The keys section of the guide, in Markdown.
@@ -369,14 +463,16 @@ pub fn markdown() -> String {
 
 fn group_in_markdown(group: Group) -> String {
     let head = format!(
-        "### {}\n\n| key | does | `:` name |\n|---|---|---|\n",
+        "### {}\n\n| key | menu | does | name |\n|---|---|---|---|\n",
         group.title()
     );
     let rows = Action::ALL.iter().filter(|a| a.group() == group).map(|a| {
         // A bar ends a cell of a table, in code as well.
-        let key = |k: &&str| format!("`{}`", k.replace('|', "\\|"));
-        let keys: Vec<_> = a.keys().iter().map(key).collect();
-        format!("| {} | {} | `{}` |\n", keys.join(" "), a.help(), a.name())
+        let code = |k: &str| format!("`{}`", k.replace('|', "\\|"));
+        let keys: Vec<_> = a.keys().iter().map(|key| code(key)).collect();
+        let prefix = code(&a.prefix());
+        let keys = keys.join(" ");
+        format!("| {keys} | {prefix} | {} | `{}` |\n", a.help(), a.name())
     });
     head + &rows.collect::<String>()
 }
@@ -388,11 +484,24 @@ mod tests {
     use super::*;
 
     #[test]
+    fn what_belongs_together_is_one_row_of_a_menu_that_fits_the_usual_screen() {
+        for column in Column::ALL {
+            let rows = column.rows();
+            let names: HashSet<_> = rows.iter().map(|row| row[0].row()).collect();
+            assert_eq!(names.len(), rows.len(), "{}", column.title());
+            assert!(rows.len() <= 20, "{}: {}", column.title(), rows.len());
+        }
+    }
+
+    #[test]
     fn no_key_and_no_name_stands_twice() {
         let mut keys = HashSet::new();
         let mut names = HashSet::new();
+        let mut prefixes = HashSet::new();
         for action in Action::ALL {
             assert!(names.insert(action.name()), "{} twice", action.name());
+            let prefix = action.prefix();
+            assert!(prefixes.insert(prefix.clone()), "{prefix} twice");
             for text in action.keys() {
                 let key = Key::parse(text).unwrap_or_else(|| panic!("{text} is no key"));
                 assert!(keys.insert(key), "{text} is bound twice");

@@ -9,7 +9,7 @@ use crate::explorer::setting::{self, SETTINGS, Setting, SettingRow, one_of};
 use crate::explorer::tour::chapter as tour;
 use crate::lab::{CaseForm, Dial};
 use crate::scene::Builtin;
-use crate::text::nearest;
+use crate::text::{former_names, nearest};
 
 /// A line that was understood.
 #[derive(Debug, Clone, PartialEq)]
@@ -108,11 +108,11 @@ impl Command {
             "dial" => dial(rest),
             "tour" => argument(rest, "tour", "a chapter's name or number").map(Self::Tour),
             "" => Err("Type a command; tab completes, esc leaves.".into()),
-            _ if Action::by_name(name).is_some() => {
-                Err(format!("{name}: takes no argument, found “{rest}”"))
-            }
             _ => match SettingRow::by_name(name).filter(|row| row.command.is_some()) {
                 Some(row) => setting::parse(row, rest).map(Self::Set),
+                None if Action::by_name(name).is_some() => {
+                    Err(format!("{name}: takes no argument, found “{rest}”"))
+                }
                 None => Err(unknown(name)),
             },
         }
@@ -177,20 +177,22 @@ fn names() -> Vec<&'static str> {
     names
 }
 
-/// All lines that the line typed so far could become, in order.
-pub fn complete(line: &str, workplace: &Workplace) -> Vec<String> {
-    let starting = |words: Vec<String>, head: &str, typed: &str| {
-        words
-            .into_iter()
-            .filter(|w| w.starts_with(typed))
-            .map(|w| format!("{head}{w}"))
-            .collect()
-    };
+/// A line that what was typed could become.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Candidate {
+    /// The line.
+    pub line: String,
+    /// The keys that do the same, or what has to follow.
+    pub keys: String,
+    /// What it does.
+    pub help: &'static str,
+}
+
+/// All lines that the line typed so far could become: of names, the likeliest first.
+pub fn candidates(line: &str, workplace: &Workplace) -> Vec<Candidate> {
     let Some((name, typed)) = line.split_once(' ') else {
-        let words = names().into_iter().map(str::to_owned).collect();
-        return starting(words, "", line);
+        return named_like(line);
     };
-    let head = format!("{name} ");
     let words = match name {
         "copy" => CaseForm::ALL.iter().map(|f| f.name().to_owned()).collect(),
         "dial" => Dial::of_scenes().map(|d| d.name.to_owned()).collect(),
@@ -203,5 +205,56 @@ pub fn complete(line: &str, workplace: &Workplace) -> Vec<String> {
         "save-as" | "append" => workplace.names_starting_with(typed),
         _ => SettingRow::by_name(name).map_or_else(Vec::new, |row| (row.choices)()),
     };
-    starting(words, &head, typed)
+    let words = words.into_iter().filter(|word| word.starts_with(typed));
+    words
+        .map(|word| Candidate {
+            line: format!("{name} {word}"),
+            keys: String::new(),
+            help: "",
+        })
+        .collect()
+}
+
+/// Actions and commands whose names or sentences have something of what was typed.
+fn named_like(typed: &str) -> Vec<Candidate> {
+    let of_action = |action: &Action| Candidate {
+        line: action.name().to_owned(),
+        keys: match action.keys() {
+            [] => action.prefix(),
+            keys => keys.join(" "),
+        },
+        help: action.help(),
+    };
+    let commands = with_argument().map(|(name, argument, help)| Candidate {
+        line: name.to_owned(),
+        keys: argument.to_owned(),
+        help,
+    });
+    let all = Action::ALL.iter().map(of_action).chain(commands);
+    let mut found: Vec<_> = all
+        .filter_map(|candidate| Some((unlikeness(&candidate, typed)?, candidate)))
+        .collect();
+    found.sort_by_key(|(unlikeness, _)| *unlikeness);
+    found.into_iter().map(|(_, candidate)| candidate).collect()
+}
+
+/// How far what was typed is from a candidate; none if it has nothing of it.
+fn unlikeness(candidate: &Candidate, typed: &str) -> Option<u8> {
+    let name = candidate.line.as_str();
+    let typed = typed.to_lowercase();
+    if name.starts_with(&typed) {
+        Some(0)
+    } else if former_names(name).any(|former| former.starts_with(&typed)) {
+        Some(1)
+    } else if name.split('-').any(|word| word.starts_with(&typed)) {
+        Some(2)
+    } else if name.contains(&typed) {
+        Some(3)
+    } else if candidate.help.to_lowercase().contains(&typed) {
+        Some(4)
+    } else {
+        let mut rest = name.chars();
+        let is_within = typed.chars().all(|c| rest.any(|other| other == c));
+        is_within.then_some(5)
+    }
 }

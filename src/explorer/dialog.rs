@@ -8,6 +8,8 @@ use crate::lab::CaseForm;
 /// Something that opens over the screen and hears the keys first.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Dialog {
+    /// All actions, in columns.
+    Menu,
     /// The keys.
     Help,
     /// A pixel to take away, in this form.
@@ -69,7 +71,7 @@ impl Confirmation {
                 format!("Unsaved changes.  o open {name} without saving   esc stay")
             }
             Self::Recover { age, .. } => format!(
-                "Unsaved work of {} ago was kept.  o open it   D delete it   any other key: later",
+                "Unsaved work of {} ago was kept.  o open it   D delete it   esc later",
                 in_words(*age)
             ),
             Self::Tour => {

@@ -252,7 +252,7 @@ impl Explorer {
         }
         match self.modes.pop() {
             None | Some(Mode::Asking(_)) => Ok(None),
-            Some(Mode::Help(_)) => help("").map(Some),
+            Some(Mode::Help(_) | Mode::Menu(_)) => help("").map(Some),
             Some(Mode::Case(ExportCase { form })) => {
                 let lines = export_case::lines(&self.state, form);
                 Ok(Some(lines.join("\n") + "\n"))

@@ -306,16 +306,22 @@ impl Explorer {
         let Some(mut mode) = self.modes.pop() else {
             return self.press_plainly(key);
         };
-        match mode.layer_mut().press(key, &mut self.state) {
+        let after = mode.layer_mut().press(key, &mut self.state);
+        self.go_on(mode, after);
+    }
+
+    /// Does what a mode wants done, and keeps it open if it is to stay.
+    fn go_on(&mut self, mode: Mode, after: After) {
+        match after {
             After::Stay => self.modes.push(mode),
             After::Close => {}
-            After::Pass(key) => self.press(key),
             After::Run(command) => {
                 self.modes.push(mode);
                 self.run(command);
             }
             After::Do(command) => self.run(command),
         }
+        self.open_dialog();
     }
 
     /// A key while nothing is open: an answer to a prediction, or an action.
@@ -328,8 +334,7 @@ impl Explorer {
             }
         }
         if let Some(action) = Action::bound_to(key) {
-            let on_grid = self.scene().camera.step().is_some();
-            self.act(if on_grid { action.on_grid() } else { action });
+            self.act(action.as_with(&self.scene().camera));
         } else if key.is("esc") {
             self.state.picture.changed.fill(false);
         } else {
@@ -355,9 +360,9 @@ impl Explorer {
         let wheel = match event.kind {
             MouseEventKind::ScrollUp => -1,
             MouseEventKind::ScrollDown => 1,
-            MouseEventKind::Down(MouseButton::Left) if self.modes.is_empty() => {
+            MouseEventKind::Down(MouseButton::Left) => {
                 self.refresh();
-                return cursor::click(&mut self.state, event.column, event.row);
+                return self.click(event.column, event.row);
             }
             _ => return false,
         };
@@ -370,6 +375,16 @@ impl Explorer {
         } else {
             Action::ZoomOut
         });
+        true
+    }
+
+    fn click(&mut self, col: u16, row: u16) -> bool {
+        let Some(mut mode) = self.modes.pop() else {
+            return cursor::click(&mut self.state, col, row);
+        };
+        let at = Position::new(col, row);
+        let after = mode.layer_mut().click(at, &self.state);
+        self.go_on(mode, after);
         true
     }
 
@@ -399,6 +414,7 @@ impl Explorer {
 
     fn act_on_program(&mut self, action: Action) -> bool {
         match action {
+            Action::Menu => self.state.open(Dialog::Menu),
             Action::Help => self.state.open(Dialog::Help),
             Action::CommandLine => {
                 let dialog = Dialog::Prompt(Purpose::Command, String::new());
@@ -516,8 +532,10 @@ impl Explorer {
 
 /// Whether what it does depends on the picture and the reading, which a change makes stale.
 fn acts_on_picture(action: Action) -> bool {
-    use Action::{CopyCase, Link, MakeTangent, Measure, NextOnLine, SelectShown, TurnBack, TurnOn};
-    let of_group = matches!(action.group(), Group::Cursor | Group::Steps);
-    let of_picture = matches!(action, CopyCase | Link | MakeTangent | Measure | NextOnLine);
-    of_group || of_picture || matches!(action, SelectShown | TurnBack | TurnOn)
+    use Action::{Add, Link, MakeTangent, SelectShown};
+    let of_group = matches!(
+        action.group(),
+        Group::Cursor | Group::Steps | Group::Laboratory
+    );
+    of_group || matches!(action, Add | Link | MakeTangent | SelectShown)
 }

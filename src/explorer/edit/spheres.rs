@@ -33,7 +33,7 @@ pub(crate) fn act(action: Action, state: &mut State) -> bool {
         Action::MoveZPlus => move_sphere(state, 2, 1.0),
         Action::MoveZMinus => move_sphere(state, 2, -1.0),
         Action::Grow => grow(state, 1.0),
-        Action::Shrink => grow(state, -1.0),
+        Action::Smaller => grow(state, -1.0),
         Action::StepCoarser => set_stride(state, state.work.stride * 2.0),
         Action::StepFiner => set_stride(state, state.work.stride / 2.0),
         Action::MakeTangent => make_tangent(state),

@@ -29,8 +29,10 @@ impl Overlay for ExportCase {
     fn press(&mut self, key: Key, _: &mut State) -> After {
         if key.is("&") || key.is("tab") {
             After::Do(Command::Copy(self.form.next()))
-        } else {
+        } else if key.is("esc") || key.is("enter") {
             After::Close
+        } else {
+            After::Stay
         }
     }
 

@@ -5,6 +5,7 @@ pub(crate) mod export_case;
 pub(crate) mod form;
 pub(crate) mod help;
 pub(crate) mod line;
+mod menu;
 pub(crate) mod overlay;
 mod prompt;
 mod question;
@@ -15,12 +16,14 @@ use crate::explorer::mode::overlay::Overlay;
 pub(crate) use export_case::ExportCase;
 pub(crate) use form::NumbersForm;
 pub(crate) use help::Help;
+pub(crate) use menu::Menu;
 pub(crate) use prompt::Prompt;
 pub(crate) use question::Asking;
 
 /// A mode that is open.
 #[derive(Debug, PartialEq)]
 pub(crate) enum Mode {
+    Menu(Menu),
     Help(Help),
     Case(ExportCase),
     Prompt(Prompt),
@@ -31,6 +34,7 @@ pub(crate) enum Mode {
 impl Mode {
     pub(crate) fn of(dialog: Dialog) -> Self {
         match dialog {
+            Dialog::Menu => Self::Menu(Menu::default()),
             Dialog::Help => Self::Help(Help::default()),
             Dialog::Case(form) => Self::Case(ExportCase { form }),
             Dialog::Prompt(purpose, text) => Self::Prompt(Prompt::new(purpose, &text)),
@@ -44,6 +48,7 @@ impl Mode {
 
     pub(crate) fn layer(&self) -> &dyn Overlay {
         match self {
+            Self::Menu(mode) => mode,
             Self::Help(mode) => mode,
             Self::Case(mode) => mode,
             Self::Prompt(mode) => mode,
@@ -54,6 +59,7 @@ impl Mode {
 
     pub(crate) fn layer_mut(&mut self) -> &mut dyn Overlay {
         match self {
+            Self::Menu(mode) => mode,
             Self::Help(mode) => mode,
             Self::Case(mode) => mode,
             Self::Prompt(mode) => mode,

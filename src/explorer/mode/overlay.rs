@@ -15,8 +15,6 @@ pub(crate) enum After {
     Stay,
     /// The mode is over.
     Close,
-    /// The mode is over, and the key means what it means without it.
-    Pass(Key),
     /// The mode stays open, and this is done.
     Run(Command),
     /// The mode is over, and this is done.
@@ -30,6 +28,11 @@ pub(crate) trait Overlay {
     /// Takes text that was pasted; false if nothing is typed here.
     fn paste(&mut self, _text: &str) -> bool {
         false
+    }
+
+    /// Takes a click on a cell of the screen.
+    fn click(&mut self, _at: Position, _state: &State) -> After {
+        After::Stay
     }
 
     /// Scrolls by lines; false if there is nothing to scroll.

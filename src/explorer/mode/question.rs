@@ -44,20 +44,20 @@ impl Overlay for Asking {
                 After::Do(Command::Recover(path.clone()))
             }
             Confirmation::Recover { .. } if key.is("D") => After::Do(Command::Discard),
-            Confirmation::Recover { .. } => {
+            Confirmation::Recover { .. } if key.is("esc") || key.is("n") => {
                 keep::put_off(state);
-                if key.is("esc") {
-                    After::Close
-                } else {
-                    After::Pass(key)
-                }
+                After::Close
+            }
+            Confirmation::Recover { .. } if key.is("q") => {
+                keep::put_off(state);
+                After::Do(Command::Do(Action::Quit))
             }
             Confirmation::Tour if key.is("t") => After::Do(Command::TourNow),
             Confirmation::Tour if key.is("s") => After::Do(Command::Do(Action::Save)),
             Confirmation::Overwrite { path, .. } if key.is("o") => {
                 After::Do(Command::Overwrite(path.clone()))
             }
-            _ if key.is("esc") || key.is("n") => {
+            _ if key.is("esc") => {
                 state.say("Nothing was changed.");
                 After::Close
             }
