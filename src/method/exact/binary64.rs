@@ -12,6 +12,23 @@ pub use crate::method::number::Input;
 /// u = 2⁻⁵³, the unit roundoff of binary64.
 pub const U: f64 = <f64 as WorkingFloat>::U;
 
+/// E = A(13ur + 6uL)(r + 11uL), the bound on the error of D: its three constants.
+pub(super) const E_RADIUS: f64 = 13.0;
+pub(super) const E_LENGTH: f64 = 6.0;
+pub(super) const E_ADDED: f64 = 11.0;
+
+/// The error of b in u times the sum of the sizes of its terms.
+pub(super) const HALF_B_ERROR: f64 = 4.25;
+
+/// The error of s in E/s.
+pub(super) const ROOT_ERROR: f64 = 0.5625;
+
+/// What of the compensated C is left out or rounded, in u²(o·o + r²).
+pub(super) const C_ERROR: f64 = 64.0;
+
+/// What the error of C/q is at most multiplied by for standing on both sides of its bound.
+pub(super) const SMALL_FACTOR: f64 = 1.75;
+
 /// D = Δ/4 with a bound on its error, and what both come from.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Discriminant<T> {
@@ -40,8 +57,8 @@ pub fn discriminant<T: WorkingFloat>(input: &Input<T>) -> Discriminant<T> {
     let ar2 = a * (r * r);
     let k2 = dot(k, k);
     let length = (o[0].abs() + o[1].abs()) + o[2].abs();
-    let spread =
-        (T::of(13.0 * T::U) * r + T::of(6.0 * T::U) * length) * (r + T::of(11.0 * T::U) * length);
+    let spread = (T::of(E_RADIUS * T::U) * r + T::of(E_LENGTH * T::U) * length)
+        * (r + T::of(E_ADDED * T::U) * length);
     Discriminant {
         o,
         a,
@@ -235,9 +252,9 @@ pub fn compensated<T: WorkingFloat>(
     Estimate {
         a: discriminant.a,
         half_b: (terms[0] + terms[1]) + terms[2],
-        half_b_error: T::of(4.25 * T::U) * magnitude,
+        half_b_error: T::of(HALF_B_ERROR * T::U) * magnitude,
         c,
-        c_error: T::of(2.0 * T::U) * c.abs() + T::of(64.0 * T::U * T::U) * (o2 + r2),
+        c_error: T::of(2.0 * T::U) * c.abs() + T::of(C_ERROR * T::U * T::U) * (o2 + r2),
         d: discriminant.d,
         d_error: discriminant.d_error,
     }
@@ -260,7 +277,7 @@ pub fn roots<T: WorkingFloat>(estimate: &Estimate<T>) -> Roots<T> {
     let great = q / a;
     let small = c / q;
 
-    let s_error = T::of(0.5625) * (d_error / s.abs());
+    let s_error = T::of(ROOT_ERROR) * (d_error / s.abs());
     let q_error = (half_b_error + s_error) + T::of(8.0 * T::U) * q.abs();
     Roots {
         s,
@@ -271,7 +288,7 @@ pub fn roots<T: WorkingFloat>(estimate: &Estimate<T>) -> Roots<T> {
         },
         small: Bounded {
             value: small,
-            error: T::of(1.75) * ((c_error + q_error * small.abs()) / q.abs()),
+            error: T::of(SMALL_FACTOR) * ((c_error + q_error * small.abs()) / q.abs()),
         },
     }
 }

@@ -10,6 +10,8 @@
 )]
 
 mod binary64;
+#[cfg(test)]
+mod bounds;
 mod double_double;
 mod error_free;
 mod integer;
