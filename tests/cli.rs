@@ -181,7 +181,7 @@ fn a_script_explores_and_is_told_what_changed() {
     );
     script.says("A 1; B −40; C 300; Δ 400; near 10; far 30");
     script.says("\npixel (23, 20); C 309; Δ 364; near 10.4606; far 29.5394;");
-    script.says("\nmethod citardauq");
+    script.says("\nmethod contracted");
     script.says("C    |p0−c|² − r²   309");
     assert!(!script.said.contains("never"));
     assert!(!script.said.contains("\n> "), "a prompt in a pipe");

@@ -948,13 +948,16 @@ fn moving_on_keeps_the_step_and_marks_what_changed() {
     person.shows(" A ");
     // A miss has no roots, and other methods have other steps before the same one.
     person.commands("step near").shows("step 16 of 23: near");
-    person.commands("cursor 20 35").presses("m");
+    person.commands("cursor 20 35").commands("method citardauq");
     person.commands("cursor 20 20").shows(": near");
     person
         .commands("step verdict")
         .commands("cursor 20 35")
         .shows(": verdict");
-    person.commands("step D").presses("M").shows(": Δ");
+    person
+        .commands("step D")
+        .commands("method textbook")
+        .shows(": Δ");
 }
 
 #[test]

@@ -63,7 +63,7 @@ fn the_json_has_what_is_promised_for_each_family_and_method() {
             .unwrap()
             .starts_with("rustc")
     );
-    let exact = &results[5];
+    let exact = &results[Method::ALL.len() - 1];
     let settled: u64 = exact["settled_by"]
         .as_object()
         .unwrap()
@@ -84,7 +84,9 @@ fn the_errors_in_the_json_are_those_of_the_library() {
             let errors = Errors::of(&problems, &references, |r, s| method.solve(r, s));
             let result = results.next().unwrap();
             assert_eq!(result["family"], family);
-            assert_eq!(result["ulp"], serde_json::to_value(errors.ulp).unwrap());
+            // Written and read as the document was: the reader is not exact to the last bit.
+            let ulp = serde_json::to_string(&errors.ulp).unwrap();
+            assert_eq!(result["ulp"], serde_json::from_str::<Value>(&ulp).unwrap());
             assert_eq!(result["wrong"], serde_json::to_value(errors.wrong).unwrap());
         }
         let census = serde_json::to_value(Census::of(&references)).unwrap();

@@ -4,6 +4,7 @@ use proptest::prelude::*;
 use rayscope::geometry::{Ray, Sphere};
 use rayscope::lab::Family;
 use rayscope::method::{Class, Method, Precision, Solution, Surd, Truth, ulp_error};
+use rayscope::text::read::binary32;
 
 fn ray(p0: [f32; 3], d: [f32; 3]) -> Ray {
     Ray::new(p0.into(), d.into()).unwrap()
@@ -46,7 +47,8 @@ fn the_tutorials_circle_and_line() {
             "{found} is not {expected}"
         );
     };
-    for method in Method::ALL {
+    // d is not of length 1, so that `unit` works another circle.
+    for method in Method::ALL.into_iter().filter(|&m| m != Method::Unit) {
         let k = method.coefficients(&line, &circle);
         near(k.a, 2.21, 1e-6);
         near(k.b, 0.44, 1e-6);
@@ -167,6 +169,11 @@ fn lengths(ray: &Ray, sphere: &Sphere) -> [f64; 3] {
     ]
 }
 
+/// Whether A is 1 to within the rounding of d: where it is not, `unit` answers another question.
+fn is_unit(ray: &Ray) -> bool {
+    (ray.direction.as_dvec3().length_squared() - 1.0).abs() <= 4.0 * U
+}
+
 /// λ of docs/methods.md: κ with the sizes that B and C were summed from in the place of B and C.
 fn sensitivity(truth: &Truth, root: &Surd, [o, d, r]: [f64; 3]) -> f64 {
     let t = root.to_f64().abs();
@@ -184,7 +191,8 @@ fn roots_are_as_good_as_is_stated() {
             let truth = Truth::new(&ray, &sphere);
             for (i, method) in Method::ALL.into_iter().enumerate() {
                 let found = method.solve(&ray, &sphere);
-                if !(truth.class().meets() && found.class == truth.class()) {
+                let asked = method != Method::Unit || is_unit(&ray);
+                if !(asked && truth.class().meets() && found.class == truth.class()) {
                     continue;
                 }
                 for (root, t) in [(truth.near(), found.near), (truth.far(), found.far)] {
@@ -208,7 +216,27 @@ fn roots_are_as_good_as_is_stated() {
             }
         }
     }
-    assert!(judged.iter().all(|&n| n > 4000), "{judged:?}");
+    assert!(judged.iter().all(|&n| n > 3500), "{judged:?}");
+}
+
+/// The ray at which docs/methods.md says that `textbook` is off by 3.28 λu.
+#[test]
+fn the_largest_error_that_is_stated_was_found() {
+    let text = "-0x1.b3622ap-3,-0x1.2180aep+2,0x1.de0b22p-3,-0x1.1e9d88p-1,-0x1.a84246p-1,0x1.91c9ap-12,\
+                -0x1.741aecp-3,-0x1.206542p+2,0x1.c5841ap-3,0x1.060f9ep+1";
+    let x: Vec<f32> = text.split(',').map(|x| binary32(x).unwrap()).collect();
+    let at = |i: usize| [x[i], x[i + 1], x[i + 2]];
+    let (line, ball) = (ray(at(0), at(3)), sphere(at(6), x[9]));
+    let truth = Truth::new(&line, &ball);
+    let found = Method::Textbook.solve(&line, &ball);
+    let roots = [(truth.near(), found.near), (truth.far(), found.far)];
+    let worst = roots.map(|(root, t)| {
+        let root = root.unwrap();
+        let off = (f64::from(t) - root.to_f64()).abs() / root.to_f64().abs();
+        off / (U * sensitivity(&truth, &root, lengths(&line, &ball)))
+    });
+    let worst = worst[0].max(worst[1]);
+    assert!((3.27..3.29).contains(&worst), "{worst}");
 }
 
 /// How large Δ/4A must be for its sign to be right, as docs/methods.md states it.
@@ -225,9 +253,12 @@ fn classes_are_as_good_as_is_stated() {
                 / (d * d);
             for (i, method) in Method::ALL.into_iter().enumerate() {
                 let bound = match method {
-                    Method::Textbook | Method::Citardauq | Method::Kahan => {
-                        24.0 * U * (o * o + r * r)
-                    }
+                    Method::Unit if !is_unit(&ray) => continue,
+                    Method::Textbook
+                    | Method::Contracted
+                    | Method::Unit
+                    | Method::Citardauq
+                    | Method::Kahan => 24.0 * U * (o * o + r * r),
                     Method::Haines => 32.0 * U * (r * (o + r) + 32.0 * U * o * o),
                     Method::Double => {
                         let u = f64::EPSILON / 2.0;
@@ -418,7 +449,7 @@ fn a_trace_is_the_plain_run_in_every_family() {
                 }
                 let k = method.coefficients(&ray, &sphere);
                 let last = match method {
-                    Method::Textbook => step("Δ").unwrap().value,
+                    Method::Textbook | Method::Contracted => step("Δ").unwrap().value,
                     Method::Exact => continue,
                     Method::Double => 4.0 * step("D").unwrap().value,
                     _ => f64::from(4.0 * step("D").unwrap().value as f32),
@@ -508,7 +539,7 @@ proptest! {
         }
         for method in Method::ALL {
             let found = method.solve(&ray, &sphere);
-            if found.class != Class::Secant {
+            if found.class != Class::Secant || method == Method::Unit && !is_unit(&ray) {
                 continue;
             }
             for (root, t) in [(truth.near(), found.near), (truth.far(), found.far)] {

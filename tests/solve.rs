@@ -60,6 +60,86 @@ fn batch_answers_row_by_row_beside_what_it_was_given() {
     );
 }
 
+/// From (20, 20, 0) along z the tutorial's sphere is met at 10 and at 30.
+#[test]
+fn batch_looks_between_tmin_and_tmax() {
+    let ray = "20,20,0,0,0,1,20,20,20,10";
+    let visible = |columns: &str, values: &str| {
+        let run = batch(&format!("{HEADER},{columns}\n{ray},{values}\n"));
+        let (header, row) = run.out.trim_end().split_once('\n').unwrap();
+        assert!(header.ends_with(",discriminant,visible"), "{header}");
+        let answers = row.rsplit(',').next().unwrap().to_owned();
+        (run.status, answers, run.err)
+    };
+    for (columns, values, expected) in [
+        ("tmin,tmax", "0,inf", "10"),
+        ("tmax,tmin", "29,0", "10"),
+        ("tmin", "9.5", "10"),
+        ("tmin", "10", "30"),
+        ("tmin", "30", ""),
+        ("tmin", "-5", "10"),
+        ("tmax", "10", ""),
+        ("tmax", "0x1.4001p3", "10"),
+        ("tmin,tmax", "11,29", ""),
+        ("tmin,tmax", "11,31", "30"),
+        ("tmin,tmax", "10,10", ""),
+    ] {
+        let found = visible(columns, values);
+        assert_eq!(
+            found,
+            (0, expected.into(), String::new()),
+            "{columns} {values}"
+        );
+    }
+    for (values, said) in [
+        ("2,1", "columns tmin, tmax: 2 is above 1"),
+        (",1", "column tmin: nothing there"),
+        ("0,nan", "column tmax: nan"),
+        ("0,1e39", "column tmax: 1e39 is past the range"),
+        ("x,1", "column tmin: `x` is not a number"),
+    ] {
+        let (status, answer, err) = visible("tmin,tmax", values);
+        assert_eq!((status, answer), (1, String::new()), "{values}");
+        assert!(err.contains("line 2") && err.contains(said), "{err}");
+    }
+    let invalid = batch(&format!("{HEADER},tmin\n{ray},x\n"));
+    assert!(
+        invalid.out.ends_with(",x,invalid,,,,,,,\n"),
+        "{}",
+        invalid.out
+    );
+    // Without the two there is no such column, and one of that name is somebody else's.
+    let own = batch(&format!("{HEADER},visible\n{ray},mine\n"));
+    assert!(
+        own.out.ends_with(",mine,secant,10,30,1,-40,300,400\n"),
+        "{}",
+        own.out
+    );
+    let clash = batch(&format!("{HEADER},visible,tmin\n{ray},mine,0\n"));
+    assert!(
+        clash.status == 1 && clash.err.contains("column visible"),
+        "{}",
+        clash.err
+    );
+    let twice = batch(&format!("{HEADER},tmin,tmin\n{ray},0,0\n"));
+    assert!(
+        twice.status == 1 && twice.err.contains("two columns tmin"),
+        "{}",
+        twice.err
+    );
+}
+
+/// A root that rounds to 0 and lies above it is seen from 0 on.
+#[test]
+fn batch_sees_what_lies_ahead_by_less_than_binary32_can_say() {
+    // p0 is 2^-149 before the surface of the unit sphere at the origin, along x, and d is 8 long.
+    let rows = format!("{HEADER},tmin\n-1e-45,0,0,8,0,0,8,0,0,8,0\n");
+    let run = solve(&["--batch", "-"], &rows);
+    let fields: Vec<&str> = run.out.lines().nth(1).unwrap().split(',').collect();
+    assert_eq!(fields[12], "0", "{}", run.out);
+    assert_eq!(fields[18], "0", "{}", run.out);
+}
+
 #[test]
 fn batch_takes_columns_in_any_order_and_leaves_the_others_alone() {
     let run = batch(

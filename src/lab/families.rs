@@ -7,6 +7,7 @@ use glam::Vec3;
 
 use crate::geometry::vector::dot;
 use crate::geometry::{Ray, Sphere};
+use crate::method::Method;
 use crate::number::power_of_two;
 use crate::random::Random;
 
@@ -62,6 +63,8 @@ impl Family {
     families! {
         "typical" typical "A few radii away, aimed near the edge: about two of three hit.";
         "inside" inside "From inside the sphere.";
+        "end-minus-start" end_minus_start "From one point towards another: d is the difference of the two, rounded.";
+        "near-unit" near_unit "Typical rays with d of length 1 but for a few ulps in each coordinate.";
         "far-4e3" far_4e3 "4000 radii away: r² has all but vanished from |o|² in binary32.";
         "far-1e6" far_1e6 "A million radii away.";
         "grazing" grazing "The line's distance from the centre is r to within one part in 10⁷.";
@@ -70,6 +73,7 @@ impl Family {
         "tangent-wide" tangent_wide "Exact tangents of exponents far apart, some tilted by the least subnormal.";
         "surface" surface "From the surface, up to the rounding of the origin.";
         "surface-exact" surface_exact "From the surface exactly, in whole numbers: C = 0.";
+        "own-hit" own_hit "From the point where textbook saw a typical ray hit, in any direction: a second ray.";
         "ground" ground "From eye height and below, over a sphere of radius 10⁶.";
         "huge-radius" huge_radius "Radii from 10⁶ to 10³⁰ times the distance to the surface.";
         "tiny-radius" tiny_radius "Radii down to 10⁻³⁰ of the distance.";
@@ -150,6 +154,50 @@ fn inside(random: &mut Random) -> DrawnCase {
     let distance = radius * random.uniform(0.0, 1.0);
     let miss = distance * random.uniform(0.0, 1.0);
     aimed(random, center, radius, distance, miss)
+}
+
+fn end_minus_start(random: &mut Random) -> DrawnCase {
+    let mut case = typical(random);
+    let length = random.uniform(1.0, 30.0);
+    case.direction = [0, 1, 2].map(|i| {
+        let start = case.origin[i] as f32;
+        let end = (case.origin[i] + length * case.direction[i]) as f32;
+        f64::from(end - start)
+    });
+    case
+}
+
+fn near_unit(random: &mut Random) -> DrawnCase {
+    let mut case = typical(random);
+    for x in &mut case.direction {
+        let ulps = random.integer(-4, 4);
+        let (mut moved, away) = (*x as f32, ulps > 0);
+        for _ in 0..ulps.abs() {
+            moved = if away {
+                moved.next_up()
+            } else {
+                moved.next_down()
+            };
+        }
+        *x = moved.into();
+    }
+    case
+}
+
+/// p0 + t·d in binary32, with the near root of `textbook`.
+fn own_hit(random: &mut Random) -> DrawnCase {
+    loop {
+        let mut case = typical(random);
+        let Some((ray, sphere)) = case.rounded() else {
+            continue;
+        };
+        let found = Method::Textbook.solve(&ray, &sphere);
+        if found.class.meets() {
+            case.origin = ray.at(found.near).to_array().map(f64::from);
+            case.direction = random.unit_vector();
+            return case;
+        }
+    }
 }
 
 fn far_4e3(random: &mut Random) -> DrawnCase {
@@ -519,6 +567,6 @@ mod tests {
                 }
             }
         }
-        assert_eq!(hash, 13_566_585_493_601_879_105);
+        assert_eq!(hash, 2_403_983_146_824_747_004);
     }
 }

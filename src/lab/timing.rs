@@ -118,7 +118,9 @@ pub fn routine(method: Method) -> Box<dyn Routine> {
             }
         };
     }
-    of!(Textbook, Citardauq, Haines, Kahan, Double, Exact)
+    of!(
+        Textbook, Contracted, Unit, Citardauq, Haines, Kahan, Double, Exact
+    )
 }
 
 /// The coordinates of vectors, lane by lane.

@@ -13,6 +13,7 @@ use std::marker::PhantomData;
 use glam::Vec3;
 
 use super::citardauq::Citardauq;
+use super::contracted::Contracted;
 use super::double::Double;
 use super::exact::lanes::{self, Inputs, LANES};
 use super::exact::{self, Input, Stage};
@@ -21,6 +22,7 @@ use super::haines::Haines;
 use super::kahan::Kahan;
 use super::simd::{self, Kernel};
 use super::textbook::Textbook;
+use super::unit::Unit;
 use super::{Class, Method, Place, Solution};
 use crate::geometry::{Ray, Sphere};
 
@@ -265,6 +267,8 @@ impl<O: Vectors, D: Vectors, C: Vectors, R: Scalars> Batch<O, D, C, R> {
         out.resize(self.count());
         match method {
             Method::Textbook => self.each::<Textbook>(out),
+            Method::Contracted => self.each::<Contracted>(out),
+            Method::Unit => self.each::<Unit>(out),
             Method::Citardauq => self.each::<Citardauq>(out),
             Method::Haines => self.each::<Haines>(out),
             Method::Kahan => self.each::<Kahan>(out),

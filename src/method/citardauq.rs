@@ -5,7 +5,7 @@
 use super::number::{Input, Scalar};
 use super::q_form::{HalfB, Reduced};
 use super::tape::Traced;
-use super::trace::{StepText, Steps};
+use super::trace::{self, StepText, Steps};
 
 /// The method.
 pub(super) struct Citardauq;
@@ -28,16 +28,7 @@ impl Reduced for Citardauq {
         (bb, ac): Self::Parts<Traced<'t, f32>>,
         reduced: Traced<'t, f32>,
     ) {
-        steps.scalar(
-            StepText {
-                symbol: "b²",
-                formula: "b·b",
-                template: "{b}²",
-                code: "let bb = k.b * k.b;",
-                why: "The first half of the discriminant.",
-            },
-            bb,
-        );
+        steps.scalar(trace::BB, bb);
         steps.scalar(
             StepText {
                 symbol: "AC",

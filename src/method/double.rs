@@ -96,7 +96,7 @@ impl RoundsRoots for f64 {
             template: "{far₆₄}",
             ..near
         };
-        steps.rounded(near, roots.near.value() as f32, truth.near());
-        steps.rounded(far, roots.far.value() as f32, truth.far());
+        steps.stated(near, roots.near.value() as f32, truth.near());
+        steps.stated(far, roots.far.value() as f32, truth.far());
     }
 }

@@ -5,7 +5,10 @@
     reason = "a call would leave the vectors of the loop that a formula is compiled into"
 )]
 
+use std::marker::PhantomData;
+
 use super::number::{Input, Scalar};
+use super::simd::{self, Kernel};
 use super::tape::{Float, Tape, Traced};
 use super::trace::{Steps, TraceStep};
 use super::truth::Truth;
@@ -54,6 +57,34 @@ pub(super) fn solve_in_loop<F: Formula>(ray: &Ray, sphere: &Sphere) -> Solution 
 #[inline(never)]
 pub(super) fn solve<F: Formula>(ray: &Ray, sphere: &Sphere) -> Solution {
     solve_in_loop::<F>(ray, sphere)
+}
+
+/// The same for a formula with fused multiply-adds: where the processor has them, that is what runs.
+#[inline]
+pub(super) fn solve_fused<F: Formula>(ray: &Ray, sphere: &Sphere) -> Solution {
+    let mut out = Solution::MISS;
+    simd::dispatch(Single::<F> {
+        ray,
+        sphere,
+        formula: PhantomData,
+        out: &mut out,
+    });
+    out
+}
+
+/// One ray and one sphere.
+struct Single<'a, F> {
+    ray: &'a Ray,
+    sphere: &'a Sphere,
+    formula: PhantomData<F>,
+    out: &'a mut Solution,
+}
+
+impl<F: Formula> Kernel for Single<'_, F> {
+    #[inline(always)]
+    fn run(self) {
+        *self.out = solve_in_loop::<F>(self.ray, self.sphere);
+    }
 }
 
 /// A, B, C and Δ as the formula's own arithmetic has them.

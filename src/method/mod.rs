@@ -5,6 +5,7 @@
 
 pub mod batch;
 mod citardauq;
+mod contracted;
 mod double;
 mod dyadic;
 pub mod exact;
@@ -21,6 +22,7 @@ mod tape;
 mod textbook;
 pub mod trace;
 mod truth;
+mod unit;
 
 pub use dyadic::Dyadic;
 pub use surd::{DecimalDigits, Surd};
@@ -32,16 +34,22 @@ use std::fmt;
 
 use crate::geometry::{Ray, Sphere};
 use citardauq::Citardauq;
+use contracted::Contracted;
 use double::Double;
 use haines::Haines;
 use kahan::Kahan;
 use textbook::Textbook;
+use unit::Unit;
 
 /// One way to evaluate the quadratic.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Method {
     /// B² − 4AC and (−B ± √Δ)/2A in binary32, operation for operation as in the tutorial.
     Textbook,
+    /// The same with the products fused that compilers fuse by default where they can.
+    Contracted,
+    /// b² − C and −b ± √D in binary32, which takes d to be of length 1.
+    Unit,
     /// b² − AC with b = B/2, and the q-form's roots q/A and C/q, in binary32.
     Citardauq,
     /// r² − ‖o − (b/A)d‖², the perpendicular form, and the q-form's roots, in binary32.
@@ -57,8 +65,10 @@ pub enum Method {
 
 impl Method {
     /// All methods, in the order in which lists show them.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 8] = [
         Self::Textbook,
+        Self::Contracted,
+        Self::Unit,
         Self::Citardauq,
         Self::Haines,
         Self::Kahan,
@@ -70,6 +80,8 @@ impl Method {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Textbook => "textbook",
+            Self::Contracted => "contracted",
+            Self::Unit => "unit",
             Self::Citardauq => "citardauq",
             Self::Haines => "haines",
             Self::Kahan => "kahan",
@@ -87,6 +99,8 @@ impl Method {
     pub fn solve(self, ray: &Ray, sphere: &Sphere) -> Solution {
         match self {
             Self::Textbook => formula::solve_in_loop::<Textbook>(ray, sphere),
+            Self::Contracted => formula::solve_fused::<Contracted>(ray, sphere),
+            Self::Unit => formula::solve_in_loop::<Unit>(ray, sphere),
             Self::Citardauq => formula::solve_in_loop::<Citardauq>(ray, sphere),
             Self::Haines => formula::solve::<Haines>(ray, sphere),
             Self::Kahan => formula::solve_in_loop::<Kahan>(ray, sphere),
@@ -99,6 +113,8 @@ impl Method {
     pub fn coefficients(self, ray: &Ray, sphere: &Sphere) -> Coefficients {
         match self {
             Self::Textbook => formula::coefficients::<Textbook>(ray, sphere),
+            Self::Contracted => formula::coefficients::<Contracted>(ray, sphere),
+            Self::Unit => formula::coefficients::<Unit>(ray, sphere),
             Self::Citardauq => formula::coefficients::<Citardauq>(ray, sphere),
             Self::Haines => formula::coefficients::<Haines>(ray, sphere),
             Self::Kahan => formula::coefficients::<Kahan>(ray, sphere),
@@ -115,6 +131,8 @@ impl Method {
     fn steps(self, ray: &Ray, sphere: &Sphere, truth: &Truth) -> Vec<trace::TraceStep> {
         match self {
             Self::Textbook => formula::steps::<Textbook>(ray, sphere, truth),
+            Self::Contracted => formula::steps::<Contracted>(ray, sphere, truth),
+            Self::Unit => formula::steps::<Unit>(ray, sphere, truth),
             Self::Citardauq => formula::steps::<Citardauq>(ray, sphere, truth),
             Self::Haines => formula::steps::<Haines>(ray, sphere, truth),
             Self::Kahan => formula::steps::<Kahan>(ray, sphere, truth),
@@ -316,6 +334,24 @@ impl Solution {
             Place::Hit => Some(self.near),
             Place::Inside => Some(self.far),
             Place::Behind => None,
+        }
+    }
+}
+
+impl Solution {
+    /// The least root between `from` and `to`, neither of them counted, as the roots are given; from 0 to ∞
+    /// that is the visible root.
+    pub fn visible_between(&self, from: f32, to: f32) -> Option<f32> {
+        let place = self.place?;
+        // A root that rounds to 0 may lie above it, which the place knows.
+        let [near_ahead, far_ahead] = [place == Place::Hit, place != Place::Behind];
+        let is_between = |t: f32, ahead: bool| {
+            (if from == 0.0 { ahead } else { t > from }) && (t < to || to == f32::INFINITY)
+        };
+        if is_between(self.near, near_ahead) {
+            Some(self.near)
+        } else {
+            is_between(self.far, far_ahead).then_some(self.far)
         }
     }
 }

@@ -197,16 +197,7 @@ impl<M: Reduced> Formula for M {
 fn coefficient_steps<'t, F: Float>(steps: &mut Steps<'t>, k: &HalfB<Traced<'t, F>>) {
     steps.vector(trace::O, k.o);
     steps.scalar(trace::A, k.a);
-    steps.scalar(
-        StepText {
-            symbol: "b",
-            formula: "d·o",
-            template: "{d.x}·{o.x} + {d.y}·{o.y} + {d.z}·{o.z}",
-            code: "let b = dot(d, o);",
-            why: "Half of B: below 0 if the ray comes nearer to the centre as it starts.",
-        },
-        k.b,
-    );
+    steps.scalar(trace::HALF_B, k.b);
     steps.scalar(trace::OO, k.oo);
     steps.scalar(trace::RR, k.rr);
     steps.scalar(trace::C, k.c);

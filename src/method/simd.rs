@@ -1,7 +1,8 @@
 //! Runs a loop over arrays with the widest vectors that this processor has.
 //!
 //! The same code is compiled twice, so that both give the same bits: Rust never fuses a product
-//! and a sum unasked, and `kahan`, which asks, gets the same fused operation either way. This is the one place of the crate that needs `unsafe`.
+//! and a sum unasked, and `contracted` and `kahan`, which ask, get the same fused operation either way. This is the one
+//! place of the crate that needs `unsafe`.
 
 /// A loop over arrays that is worth compiling for wider vectors.
 pub trait Kernel {

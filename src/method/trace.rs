@@ -10,7 +10,7 @@ mod loss;
 
 use std::fmt;
 
-pub(super) use build::{A, C, O, OO, RR, StepText, Steps};
+pub(super) use build::{A, BB, C, HALF_B, O, OO, RR, StepText, Steps};
 pub use loss::{Loss, LossKind};
 
 use super::format::{self, Shortest};
@@ -355,7 +355,9 @@ mod tests {
     /// The step that holds a coefficient, and the factor by which it differs from it.
     fn steps_of(method: Method) -> [(&'static str, f64); 4] {
         match method {
-            Method::Textbook => [("A", 1.0), ("B", 1.0), ("C", 1.0), ("Δ", 1.0)],
+            Method::Textbook | Method::Contracted => {
+                [("A", 1.0), ("B", 1.0), ("C", 1.0), ("Δ", 1.0)]
+            }
             _ => [("A", 1.0), ("b", 2.0), ("C", 1.0), ("D", 4.0)],
         }
     }
@@ -438,6 +440,8 @@ mod tests {
         [
             match method {
                 Method::Textbook => include_str!("textbook.rs"),
+                Method::Contracted => include_str!("contracted.rs"),
+                Method::Unit => include_str!("unit.rs"),
                 Method::Citardauq => include_str!("citardauq.rs"),
                 Method::Haines => include_str!("haines.rs"),
                 Method::Kahan => include_str!("kahan.rs"),
@@ -446,6 +450,7 @@ mod tests {
             },
             match method {
                 Method::Exact => include_str!("exact/mod.rs"),
+                Method::Contracted => include_str!("textbook.rs"),
                 _ => include_str!("q_form.rs"),
             },
         ]

@@ -118,6 +118,15 @@ impl<const N: usize> CsvColumns<N> {
         })
     }
 
+    /// The field of a column that may be there; twice is refused in a sentence.
+    pub fn optional(&self, name: &'static str) -> Result<Option<OptionalColumn>, String> {
+        let mut found = (0..self.names.len()).filter(|&i| self.names[i] == name);
+        match (found.next(), found.next()) {
+            (_, Some(_)) => Err(format!(": there are two columns {name}; expected one")),
+            (place, None) => Ok(place.map(|place| OptionalColumn { name, place })),
+        }
+    }
+
     /// Whether the file has a column of that name.
     pub fn has(&self, name: &str) -> bool {
         self.names.iter().any(|n| n == name)
@@ -204,6 +213,24 @@ impl<const N: usize> CsvColumns<N> {
             ));
         }
         Ok(())
+    }
+}
+
+/// A column that a file may have or not.
+pub(super) struct OptionalColumn {
+    name: &'static str,
+    place: usize,
+}
+
+impl OptionalColumn {
+    /// What a row has there, read by `parse`, or column, value and what was expected.
+    pub fn read<T>(
+        &self,
+        row: &CsvRow,
+        parse: impl Fn(&[u8]) -> Result<T, String>,
+    ) -> Result<T, String> {
+        let field = row.get(self.place).unwrap_or_default();
+        parse(field).map_err(|reason| format!("column {}: {reason}", self.name))
     }
 }
 

@@ -5,7 +5,7 @@ use std::io::{self, BufReader, BufWriter, IsTerminal as _, Read, Write};
 use std::path::Path;
 
 use super::super::output::Complaints;
-use super::super::rows::{CsvFile, CsvRow, INPUTS, unreadable};
+use super::super::rows::{CsvColumns, CsvFile, CsvRow, INPUTS, OptionalColumn, number, unreadable};
 use super::super::{Failure, unwritable};
 use crate::door::{Expected, shown};
 use crate::geometry::{Ray, Sphere};
@@ -22,6 +22,48 @@ const ROWS: Expected = Expected {
 
 /// The columns that are added at the end.
 const OUTPUTS: [&str; 7] = ["class", "near", "far", "a", "b", "c", "discriminant"];
+
+/// The column after these where a row says between which t it looks.
+const VISIBLE: &str = "visible";
+
+/// The columns that say so, where a file has them: from 0 and to ∞ else.
+struct Between {
+    from: Option<OptionalColumn>,
+    to: Option<OptionalColumn>,
+}
+
+impl Between {
+    /// The columns of a file; none if it has neither.
+    fn of<const N: usize>(columns: &CsvColumns<N>) -> Result<Option<Self>, String> {
+        let (from, to) = (columns.optional("tmin")?, columns.optional("tmax")?);
+        let any = from.is_some() || to.is_some();
+        Ok(any.then_some(Self { from, to }))
+    }
+
+    /// What a row has there.
+    fn read(&self, row: &CsvRow) -> Result<[f32; 2], String> {
+        let to = |field: &[u8]| match field.trim_ascii().to_ascii_lowercase().as_slice() {
+            b"inf" | b"+inf" | b"infinity" | b"+infinity" => Ok(f32::INFINITY),
+            _ => number(field),
+        };
+        let from = self
+            .from
+            .as_ref()
+            .map_or(Ok(0.0), |c| c.read(row, number))?;
+        let to = self
+            .to
+            .as_ref()
+            .map_or(Ok(f32::INFINITY), |c| c.read(row, to))?;
+        if from <= to {
+            Ok([from, to])
+        } else {
+            let [from, to] = [from, to].map(|t| format::binary32(t, Glyphs::Ascii));
+            Err(format!(
+                "columns tmin, tmax: {from} is above {to}; expected tmin <= tmax"
+            ))
+        }
+    }
+}
 
 /// Bytes read or written at once.
 const BUFFER: usize = 1 << 16;
@@ -89,7 +131,13 @@ fn answer(
     };
     let input = BufReader::with_capacity(BUFFER, input);
     let (mut file, mut row) = CsvFile::open(ROWS, path, input, INPUTS)?;
-    if let Some(name) = OUTPUTS.into_iter().find(|name| file.columns.has(name)) {
+    let between = Between::of(&file.columns).map_err(|reason| {
+        let (path, line) = (shown(path), row.line);
+        Failure::invalid(format_args!("{path}: line {line}{reason}"))
+    })?;
+    let visible = between.is_some().then_some(VISIBLE);
+    let outputs = || OUTPUTS.into_iter().chain(visible);
+    if let Some(name) = outputs().find(|name| file.columns.has(name)) {
         let (path, line) = (shown(path), row.line);
         return Err(Stop::Failed(Failure::invalid(format_args!(
             "{path}: line {line}, column {name}: an answer has this name; rename the column"
@@ -108,7 +156,7 @@ fn answer(
     };
     let mut text = Vec::new();
     file.columns.copy(&row, &mut text);
-    for name in OUTPUTS {
+    for name in outputs() {
         text.push(b',');
         text.extend_from_slice(name.as_bytes());
     }
@@ -123,13 +171,19 @@ fn answer(
         }
         text.clear();
         file.columns.copy(&row, &mut text);
-        match file.columns.problem(&row) {
-            Ok((ray, sphere)) => {
-                push_answers(&mut text, method, &ray, &sphere).map_err(Stop::Unwritten)?;
+        let asked = file.columns.problem(&row).and_then(|problem| {
+            let between = between.as_ref().map(|between| between.read(&row));
+            Ok((problem, between.transpose()?))
+        });
+        match asked {
+            Ok(((ray, sphere), between)) => {
+                push_answers(&mut text, method, (&ray, &sphere), between)
+                    .map_err(Stop::Unwritten)?;
             }
             Err(reason) => {
                 complaints.row(row.line, reason);
-                text.extend_from_slice(b",invalid,,,,,,");
+                text.extend_from_slice(b",invalid");
+                text.extend(outputs().skip(1).map(|_| b','));
             }
         }
         end(&row, &mut text);
@@ -146,11 +200,17 @@ fn answer(
     })
 }
 
-/// Appends what a method says of one row, in the order of `OUTPUTS`.
-fn push_answers(text: &mut Vec<u8>, method: Method, ray: &Ray, sphere: &Sphere) -> io::Result<()> {
+/// Appends what a method says of one row, in the order of `OUTPUTS`, and the visible root between two t.
+fn push_answers(
+    text: &mut Vec<u8>,
+    method: Method,
+    (ray, sphere): (&Ray, &Sphere),
+    between: Option<[f32; 2]>,
+) -> io::Result<()> {
+    let solution = method.solve(ray, sphere);
     let Solution {
         class, near, far, ..
-    } = method.solve(ray, sphere);
+    } = solution;
     write!(text, ",{}", class.name())?;
     if class == Class::Miss {
         text.extend_from_slice(b",,");
@@ -167,6 +227,12 @@ fn push_answers(text: &mut Vec<u8>, method: Method, ray: &Ray, sphere: &Sphere) 
             glyphs,
         };
         write!(text, ",{number}")?;
+    }
+    if let Some([from, to]) = between {
+        text.push(b',');
+        if let Some(t) = solution.visible_between(from, to) {
+            write!(text, "{}", format::binary32(t, Glyphs::Ascii))?;
+        }
     }
     Ok(())
 }

@@ -39,9 +39,12 @@ pub fn work(set: &MeasuredSet, cols: usize, rows: usize, glyphs: Glyphs) -> Vec<
     lines
 }
 
-/// The letter that stands for a method in the chart: no two begin alike.
+/// The letter that stands for a method in the chart: its first, or the first that no other has.
 fn letter(method: &str) -> char {
-    method.chars().next().unwrap_or('?')
+    match method {
+        "contracted" => 'o',
+        _ => method.chars().next().unwrap_or('?'),
+    }
 }
 
 /// Wrong answers in per cent, in few characters, none of them a rounded 0 or 100.

@@ -1,7 +1,7 @@
 //! Charts of the reports as SVG: error against run time, and bits lost against each dial.
 //!
 //! They are ours since the same chart by `plotters` (0.3, only its SVG backend), looked at beside this one, reads
-//! worse where it matters: its labels lie on points, on lines and on each other (four of six methods are
+//! worse where it matters: its labels lie on points, on lines and on each other (most methods are
 //! within a label's height), and a point has one shape for all methods, which colour alone then tells
 //! apart. To place labels and draw markers is most of the code here, and would be ours in any case.
 
@@ -22,6 +22,8 @@ const FAINT: &str = "#dddddd";
 fn look(method: &str) -> (&'static str, Marker) {
     match method {
         "textbook" => ("#d55e00", Marker::Square),
+        "contracted" => ("#56b4e9", Marker::Cross),
+        "unit" => ("#999999", Marker::Nabla),
         "citardauq" => ("#e69f00", Marker::Diamond),
         "haines" => ("#009e73", Marker::Triangle),
         "kahan" => ("#cc79a7", Marker::Circle),

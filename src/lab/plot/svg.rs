@@ -44,6 +44,8 @@ pub(super) enum Marker {
     Triangle,
     Circle,
     Plus,
+    Cross,
+    Nabla,
     Ring,
 }
 
@@ -163,8 +165,17 @@ impl Svg {
                 &[[x, y - R - 0.5], [x + R + 0.5, y + R], [x - R - 0.5, y + R]],
                 color,
             ),
+            Marker::Nabla => self.polygon(
+                &[[x, y + R + 0.5], [x + R + 0.5, y - R], [x - R - 0.5, y - R]],
+                color,
+            ),
             Marker::Circle => self.circle(at, R, color, "none"),
             Marker::Ring => self.circle(at, R, "#ffffff", color),
+            Marker::Cross => {
+                let stroke = Stroke::solid(color, 2.5);
+                self.line([x - R, y - R], [x + R, y + R], stroke);
+                self.line([x - R, y + R], [x + R, y - R], stroke);
+            }
             Marker::Plus => {
                 let stroke = Stroke::solid(color, 2.5);
                 self.line([x - R - 0.5, y], [x + R + 0.5, y], stroke);

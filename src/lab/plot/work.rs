@@ -241,6 +241,8 @@ fn free_area(panel: &Plot, [x, y]: [f64; 2], width: f64, taken: &[Area]) -> Area
 fn text_color(method: &str) -> &'static str {
     match method {
         "textbook" => "#b34e00",
+        "contracted" => "#1f6fa5",
+        "unit" => "#666666",
         "citardauq" => "#946600",
         "haines" => "#007d5b",
         "kahan" => "#a3507d",

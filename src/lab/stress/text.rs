@@ -1,5 +1,7 @@
 //! The stability sweeps for people: as text of 80 columns, and the same in Markdown.
 
+use std::ops::Range;
+
 use super::theory::{AGREEMENT, agree};
 use super::{Check, DialSetting, MethodErrors, Stability, Sweep, bits_lost, invariance};
 use crate::lab::bench::text::code;
@@ -33,10 +35,23 @@ fn section(stability: &Stability, sweep: &Sweep) -> Report {
     Report::new()
         .heading(format!("{}: {}", sweep.dial.name, sweep.dial.about))
         .words("  wrong answers in per cent, bits lost: median/worst")
-        .table(grid(stability, sweep, wrong_and_bits))
+        .then(grids(stability, sweep, wrong_and_bits))
         .words("  blame err/(κu): median/worst")
-        .table(grid(stability, sweep, blame))
+        .then(grids(stability, sweep, blame))
         .then(inputs(sweep))
+}
+
+/// The most methods that stand side by side in eighty columns.
+const BESIDE: usize = 6;
+
+/// As many tables as the methods need, with about as many methods each.
+fn grids(stability: &Stability, sweep: &Sweep, show: fn(&MethodErrors, usize) -> String) -> Report {
+    let methods = stability.methods.len();
+    let each = methods.div_ceil(methods.div_ceil(BESIDE)).max(1);
+    let tables = (0..methods)
+        .step_by(each)
+        .map(|first| grid(stability, sweep, first..methods.min(first + each), show));
+    tables.fold(Report::new(), Report::table)
 }
 
 /// The most settings of a dial that a table shows.
@@ -54,11 +69,18 @@ fn chosen(sweep: &Sweep) -> impl Iterator<Item = &DialSetting> {
         .map(|(_, step)| step)
 }
 
-fn grid(stability: &Stability, sweep: &Sweep, show: fn(&MethodErrors, usize) -> String) -> Table {
-    let methods = stability.methods.iter().map(|method| method.name());
+fn grid(
+    stability: &Stability,
+    sweep: &Sweep,
+    which: Range<usize>,
+    show: fn(&MethodErrors, usize) -> String,
+) -> Table {
+    let methods = stability.methods[which.clone()].iter();
+    let methods = methods.map(|method| method.name());
     let names = std::iter::once(sweep.dial.quantity).chain(methods);
     let row = |step: &DialSetting| {
-        let found = step.cells.iter().map(|cell| show(cell, step.census.rays));
+        let cells = step.cells[which.clone()].iter();
+        let found = cells.map(|cell| show(cell, step.census.rays));
         std::iter::once(format!("2^{}", step.k))
             .chain(found)
             .collect()
@@ -212,8 +234,8 @@ fn checks(stability: &Stability) -> Report {
     if stability.checks.is_empty() {
         return Report::new();
     }
-    // Seven methods beside the longest name leave six columns for each.
-    let method = |method: &Method| Column::right(method.name().chars().take(6).collect::<String>());
+    // Eight methods beside the longest name leave five columns for each.
+    let method = |method: &Method| Column::right(method.name().chars().take(4).collect::<String>());
     let verdict = |check: &Check| match check.failed {
         0 => "pass".into(),
         failed => failed.to_string(),

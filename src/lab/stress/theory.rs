@@ -29,6 +29,8 @@ enum DiscriminantForm {
     Coefficients { textbook: bool },
     /// r² − ‖o − (b/A)d‖² in binary32.
     Perpendicular,
+    /// b² − C in binary32, which takes A to be 1.
+    UnitLength,
     /// A r² − ‖o × d‖² in binary64.
     Lagrange,
     /// Certified: it does not break down.
@@ -38,8 +40,9 @@ enum DiscriminantForm {
 impl DiscriminantForm {
     const fn of(method: Method) -> Self {
         match method {
-            Method::Textbook => Self::Coefficients { textbook: true },
+            Method::Textbook | Method::Contracted => Self::Coefficients { textbook: true },
             Method::Citardauq | Method::Kahan => Self::Coefficients { textbook: false },
+            Method::Unit => Self::UnitLength,
             Method::Haines => Self::Perpendicular,
             Method::Double => Self::Lagrange,
             Method::Exact => Self::Certified,
@@ -50,7 +53,7 @@ impl DiscriminantForm {
 /// log₂ of the dial's value at the first wrong answer, and at the first hit moved by more than half
 /// a pixel, among `rays` rays a setting; none for never.
 pub(super) fn of(dial: &str, method: Method, rays: usize) -> [Option<f64>; 2] {
-    use DiscriminantForm::{Certified, Coefficients, Lagrange, Perpendicular};
+    use DiscriminantForm::{Certified, Coefficients, Lagrange, Perpendicular, UnitLength};
     let rays = rays as f64;
     // The relative error ε of cos²θ at which one of n rays, spread evenly from the centre to half a
     // radius outside, comes out on the wrong side: 2/n. And at which one of them moves by r/20:
@@ -67,8 +70,15 @@ pub(super) fn of(dial: &str, method: Method, rays: usize) -> [Option<f64>; 2] {
         ("distance", Lagrange) => [Some(side - DOUBLE + ONLY_O), Some(ROUNDING_OF_T)],
         ("distance", Certified) => [None, Some(ROUNDING_OF_T)],
         // C = ‖o‖² − r² is off by u·r², so t by u·r up to 1/cosθ = 5 times, against height/20.
-        ("altitude", Coefficients { .. } | Perpendicular) => [None, Some(SINGLE + 5.9)],
+        ("altitude", Coefficients { .. } | Perpendicular | UnitLength) => {
+            [None, Some(SINGLE + 5.9)]
+        }
         ("altitude", Lagrange) => [None, Some(DOUBLE + 5.9)],
+        // Without A the error of D is (A − 1)C: as soon as A is not 1, or where C is at its least.
+        ("distance", UnitLength) => [Some(1.0), None],
+        ("tangency", UnitLength) => [Some(-1.0), None],
+        ("long", UnitLength) => [Some(0.0), Some(0.0)],
+        ("short", UnitLength) => [Some(0.0), None],
         // cos²θ against the same ε at four radii, at most twice the usual: 34u or 8u. Its root is
         // far below a twentieth.
         ("tangency", Coefficients { .. }) => [Some(0.5 * (SINGLE + 5.1)), None],
@@ -78,7 +88,7 @@ pub(super) fn of(dial: &str, method: Method, rays: usize) -> [Option<f64>; 2] {
         ("large" | "long", Coefficients { textbook: true }) => [Some(64.0 - FARTHEST - 1.0), None],
         ("long", Coefficients { textbook: false }) => [Some(64.0 - FARTHEST), None],
         ("long", Perpendicular) => [Some(63.0), None],
-        ("large", Coefficients { textbook: false } | Perpendicular) => {
+        ("large", Coefficients { textbook: false } | Perpendicular | UnitLength) => {
             [Some(64.0 - FARTHEST), None]
         }
         // D = r²cos²θ s², or Δ, four times as much, is a multiple of 2⁻¹⁴⁹: ε = 2⁻¹⁴⁹/(r² s²), r from
@@ -86,7 +96,7 @@ pub(super) fn of(dial: &str, method: Method, rays: usize) -> [Option<f64>; 2] {
         ("small", Coefficients { textbook: true }) => {
             [side, half_pixel].map(|epsilon| Some((-149.0 - epsilon) / 2.0))
         }
-        ("small", Coefficients { textbook: false } | Perpendicular) => {
+        ("small", Coefficients { textbook: false } | Perpendicular | UnitLength) => {
             [side, half_pixel].map(|epsilon| Some((-149.0 + 2.0 - epsilon) / 2.0))
         }
         // A is a multiple of 2⁻¹⁴⁹ and so off by α = 2⁻¹⁵⁰/‖d‖². b² − AC makes (‖o‖/r)² ≈ 50 of it;

@@ -9,7 +9,7 @@ use crate::method::Precision;
 use crate::method::format::Shortest;
 use crate::method::number::Input;
 use crate::method::surd::Surd;
-use crate::method::tape::{Float, Operand, Tape, Traced};
+use crate::method::tape::{Float, Operand, Operation, Tape, Traced};
 use crate::text::Glyphs;
 
 /// What a step says of itself, the numbers apart.
@@ -55,6 +55,15 @@ pub(in crate::method) const A: StepText = StepText {
     why: "What multiplies t²: the length of d, squared.",
 };
 
+/// b = B/2.
+pub(in crate::method) const HALF_B: StepText = StepText {
+    symbol: "b",
+    formula: "d·o",
+    template: "{d.x}·{o.x} + {d.y}·{o.y} + {d.z}·{o.z}",
+    code: "let b = dot(d, o);",
+    why: "Half of B: below 0 if the ray comes nearer to the centre as it starts.",
+};
+
 /// |o|².
 pub(in crate::method) const OO: StepText = StepText {
     symbol: "|o|²",
@@ -80,6 +89,15 @@ pub(in crate::method) const C: StepText = StepText {
     template: "{|o|²} − {r²}",
     code: "let c = oo - rr;",
     why: "What is left without t: below 0 if the ray starts inside, 0 if on the surface.",
+};
+
+/// b².
+pub(in crate::method) const BB: StepText = StepText {
+    symbol: "b²",
+    formula: "b·b",
+    template: "{b}²",
+    code: "let bb = k.b * k.b;",
+    why: "The first half of the discriminant.",
 };
 
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -135,14 +153,15 @@ impl<'t> Steps<'t> {
         self.push(line, Quantity::Scalar(root), losses);
     }
 
-    /// A step that rounds a root to binary32.
-    pub fn rounded(&mut self, line: StepText, value: f32, exact: Option<Surd>) {
-        let root = Measured {
+    /// A step that gives a binary32 which no operation of the record made: a root that was rounded, or
+    /// what was assumed.
+    pub fn stated(&mut self, line: StepText, value: f32, exact: Option<Surd>) {
+        let number = Measured {
             value: value.into(),
             precision: Precision::Binary32,
             exact,
         };
-        self.push(line, Quantity::Scalar(root), Vec::new());
+        self.push(line, Quantity::Scalar(number), Vec::new());
     }
 
     fn push(&mut self, line: StepText, result: Quantity, losses: Vec<Loss>) {
@@ -220,13 +239,33 @@ impl<'t> Steps<'t> {
             let operands: Vec<_> = entry
                 .operands
                 .iter()
-                .map(|o| self.operand::<F>(*o))
+                .map(|o| match entry.operation {
+                    Some(Operation::MulAdd) => self.signless_operand::<F>(*o),
+                    _ => self.operand::<F>(*o),
+                })
                 .collect();
             found.extend(loss::of(&entry, &operands, F::PRECISION));
             open.extend(entry.operands);
         }
         found.sort_by_key(|loss| std::cmp::Reverse((loss.is_heavy(), loss.bits())));
         found
+    }
+
+    /// An operand of a fused operation, which has no difference and negates what it takes away: that
+    /// goes by the name that it has without the sign.
+    fn signless_operand<F: Float>(&self, operand: Operand) -> loss::LossOperand {
+        let plain = self.operand::<F>(operand);
+        let negated = match operand {
+            Operand::Entry(place) => self.tape.get(place),
+            Operand::Constant(_) => None,
+        };
+        match negated {
+            Some(entry) if entry.operation == Some(Operation::Neg) => loss::LossOperand {
+                value: plain.value,
+                ..self.operand::<F>(entry.operands[0])
+            },
+            _ => plain,
+        }
     }
 
     fn operand<F: Float>(&self, operand: Operand) -> loss::LossOperand {

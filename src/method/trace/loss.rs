@@ -92,6 +92,22 @@ pub(super) struct LossOperand {
     pub exact: bool,
 }
 
+impl LossOperand {
+    /// The product that a fused operation adds without rounding it; of binary32 it is a binary64.
+    fn product(x: &Self, y: &Self) -> Self {
+        Self {
+            label: if x.label == y.label {
+                format!("{}²", x.label)
+            } else {
+                format!("{}·{}", x.label, y.label)
+            },
+            named: x.named && y.named,
+            value: x.value * y.value,
+            exact: x.exact && y.exact,
+        }
+    }
+}
+
 /// What the operation of an entry lost, if anything that is worth a word.
 pub(super) fn of(entry: &Entry, operands: &[LossOperand], precision: Precision) -> Option<Loss> {
     of_operation(entry.operation?, entry.value, operands, precision)
@@ -130,11 +146,22 @@ pub(super) fn of_operation(
     if inexact && local.floor_log2().is_some_and(|log| log < least_normal) {
         return Some(loss(LossKind::Underflowed, both));
     }
-    let sum = match operation {
-        Operation::Add | Operation::Sub => both.map(|o| Dyadic::from_f64(o.value)),
+    let product;
+    let both = match (operation, operands) {
+        (Operation::Add | Operation::Sub, _) => both,
+        (Operation::MulAdd, [x, y, z]) => {
+            product = LossOperand::product(x, y);
+            if rounds_to(product.value, -z.value, precision) {
+                // What is asked for is the rounding error of the product: that is all there is.
+                return None;
+            }
+            [&product, z]
+        }
         _ => return None,
     };
-    let [Some(x), Some(y)] = sum else { return None };
+    let [Some(x), Some(y)] = both.map(|o| Dyadic::from_f64(o.value)) else {
+        return None;
+    };
     let (lx, ly) = (x.floor_log2()?, y.floor_log2()?);
     let result = Dyadic::from_f64(value)?;
     let cancelled = match result.floor_log2() {
@@ -154,6 +181,13 @@ pub(super) fn of_operation(
         let kept = u32::try_from(kept).unwrap_or(0);
         loss(LossKind::Absorbed { kept }, [great, small])
     })
+}
+
+fn rounds_to(value: f64, rounded: f64, precision: Precision) -> bool {
+    match precision {
+        Precision::Binary32 => f64::from(value as f32) == rounded,
+        Precision::Binary64 => value == rounded,
+    }
 }
 
 /// The result of the operation on the operands as they are, not rounded.
