@@ -14,6 +14,8 @@ mod plan;
 mod steps;
 pub mod worksheet;
 
+use std::cmp::Ordering;
+
 use glam::{DVec3, Vec3};
 
 use crate::geometry::{Ray, Sphere};
@@ -184,30 +186,84 @@ impl Reading {
 }
 
 fn meetings(scene: &Scene, ray: &Ray, method: Method) -> Vec<Meeting> {
-    let mut meetings: Vec<_> = scene
-        .bodies
-        .iter()
-        .enumerate()
-        .map(|(body, b)| Meeting {
-            body,
-            solution: method.solve(ray, &b.sphere),
-        })
-        .filter(|m| m.solution.class.meets())
-        .collect();
-    // A stable sort: of two spheres at equal t the first listed comes first, as in the picture.
-    let met = |m: &Meeting| (&scene.bodies[m.body].sphere, m.solution);
-    meetings.sort_by(|m, n| method.order(ray, met(m), met(n)));
+    let mut meetings: Vec<_> = found(scene, ray, method).collect();
+    let order = |m: &Meeting, n: &Meeting| order(scene, ray, method, m, n);
+    if method == Method::Exact {
+        // Of spheres whose roots round alike a question is dear: so first about in order.
+        meetings.sort_by_cached_key(|m| {
+            let sphere = &scene.bodies[m.body].sphere;
+            // Numbers above 0 are in the order of their bits.
+            about_where_seen(ray, sphere, m.solution).max(0.0).to_bits()
+        });
+        if put_in_order(&mut meetings, order) {
+            return meetings;
+        }
+    }
+    meetings.sort_by(order);
     meetings
 }
 
-/// The sphere that the method sees and the one that is in front, if these are two.
-fn other_sphere(scene: &Scene, ray: &Ray, method: Method, found: &[Meeting]) -> Option<[usize; 2]> {
-    let first = |meetings: &[Meeting]| {
-        let first = meetings.first()?;
-        first.solution.visible().map(|_| first.body)
+/// Puts what is nearly in order in order, by little more than a question for each; false if it is not so
+/// near.
+fn put_in_order<T>(list: &mut [T], order: impl Fn(&T, &T) -> Ordering) -> bool {
+    let mut moves = 0;
+    for end in 1..list.len() {
+        let mut i = end;
+        while i > 0 && order(&list[i - 1], &list[i]).is_gt() {
+            list.swap(i - 1, i);
+            i -= 1;
+            moves += 1;
+            if moves > list.len() {
+                return false;
+            }
+        }
+    }
+    true
+}
+
+/// All spheres that the line of a ray meets.
+fn found(scene: &Scene, ray: &Ray, method: Method) -> impl Iterator<Item = Meeting> {
+    let found = scene
+        .bodies
+        .iter()
+        .enumerate()
+        .map(move |(body, b)| Meeting {
+            body,
+            solution: method.solve(ray, &b.sphere),
+        });
+    found.filter(|m| m.solution.class.meets())
+}
+
+/// About which root is seen of a sphere, in binary64; ∞ if none is.
+fn about_where_seen(ray: &Ray, sphere: &Sphere, solution: Solution) -> f64 {
+    let d = ray.direction.as_dvec3();
+    let o = ray.origin.as_dvec3() - sphere.center.as_dvec3();
+    let r = f64::from(sphere.radius);
+    let half = (r * r * d.length_squared() - o.cross(d).length_squared())
+        .max(0.0)
+        .sqrt();
+    let side = match solution.place() {
+        Some(Place::Hit) => -half,
+        Some(Place::Inside) => half,
+        _ => return f64::INFINITY,
     };
-    let seen = first(found).filter(|_| method != Method::Exact)?;
-    let right = first(&meetings(scene, ray, Method::Exact))?;
+    (side - o.dot(d)) / d.length_squared()
+}
+
+/// Which comes first: of two spheres at equal t the first listed, as in the picture.
+fn order(scene: &Scene, ray: &Ray, method: Method, m: &Meeting, n: &Meeting) -> Ordering {
+    let met = |m: &Meeting| (&scene.bodies[m.body].sphere, m.solution);
+    method.order(ray, met(m), met(n)).then(m.body.cmp(&n.body))
+}
+
+/// The sphere that the method sees and the one that is in front, if these are two.
+fn other_sphere(scene: &Scene, ray: &Ray, method: Method, met: &[Meeting]) -> Option<[usize; 2]> {
+    let visible = |first: &Meeting| first.solution.visible().map(|_| first.body);
+    let seen = met.first().and_then(visible);
+    let seen = seen.filter(|_| method != Method::Exact)?;
+    let exact = Method::Exact;
+    let right = found(scene, ray, exact).min_by(|m, n| order(scene, ray, exact, m, n));
+    let right = right.as_ref().and_then(visible)?;
     (seen != right).then_some([seen, right])
 }
 

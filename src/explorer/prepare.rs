@@ -1,5 +1,5 @@
 //! Brings picture, reading and derivation up to date: each is made again only when what it depends on
-//! changed.
+//! changed. The picture may take long, so it is only begun here, and gone on with in slices.
 
 use crate::explain::{Drawn, Reading, Step, derivation};
 use crate::explorer::arrival::scaled;
@@ -9,12 +9,12 @@ use crate::explorer::options::Options;
 use crate::explorer::state::State;
 use crate::explorer::viewpoint::Viewpoint;
 use crate::explorer::{cursor, walk};
-use crate::render::{Look, fit};
-use crate::scene::{Rays, Size};
+use crate::render::{Allowance, Look, fit};
+use crate::scene::Size;
 use crate::text::Glyphs;
 
-/// Brings all up to date for the room that the layout leaves the picture.
-pub(crate) fn prepare(state: &mut State) {
+/// Brings all up to date for the room that the layout leaves the picture, which itself is begun.
+pub(crate) fn arrange(state: &mut State) {
     let room = layout::inner(state.layout.unwrap_or_default().view);
     let room = (room.width, room.height);
     let Options { aspect, glyphs, .. } = state.options;
@@ -33,21 +33,27 @@ pub(crate) fn prepare(state: &mut State) {
             coarse: state.coarse,
         },
     };
-    state.picture.rests = state.picture.key == Some(key);
-    if !state.picture.rests {
+    let is_same = state.picture.key == Some(key);
+    state.picture.rests = is_same && state.picture.percent_done().is_none();
+    if !is_same {
         scale_cursor(state, size);
         let scene = state.work.document.scene();
-        let picture = &mut state.picture;
-        picture.rays = Rays::new(&scene.camera, size, shape);
-        picture.frame.render(scene, &picture.rays, method, key.view);
-        picture.image.draw(&picture.frame, scene, key.look);
-        picture.key = Some(key);
+        state.picture.begin(scene, key);
     }
     cursor::arrive(state);
     let (x, y) = state.at.cursor;
     state.picture.scroll_to(style.cell_of_pixel(x, y), room);
     read(state, key);
     walk::arrive_at_step(state);
+}
+
+/// Goes on with the picture while the allowance lasts; whether it is done.
+pub(crate) fn go_on(state: &mut State, allowance: &mut Allowance) -> bool {
+    let is_done = state.picture.go_on(state.work.document.scene(), allowance);
+    if is_done && state.picture.is_derivation_pending {
+        derive_steps(state);
+    }
+    is_done
 }
 
 /// Keeps the cursor on the same place of the picture when the number of pixels changes.
@@ -91,21 +97,40 @@ fn read(state: &mut State, picture: PictureKey) {
     derive(state);
 }
 
-/// Derives the reading again and notes which results are other ones than before.
+/// Derives the reading again.
 fn derive(state: &mut State) {
+    state.picture.steps_before = std::mem::take(&mut state.picture.steps);
+    state.picture.changed.clear();
+    derive_steps(state);
+    walk::keep_step(state);
+    state.prediction.revealed = false;
+}
+
+/// Makes the steps, as far as the picture allows, and notes which results are other ones than before.
+fn derive_steps(state: &mut State) {
     let Some(reading) = &state.picture.reading else {
         return;
     };
     let Picture { frame, image, .. } = &state.picture;
-    let drawn = Drawn::at(state.at.cursor, frame, image, state.at.style);
+    let (cursor, style) = (state.at.cursor, state.at.style);
+    let is_pending = state.picture.percent_done().is_some();
+    let drawn = if is_pending {
+        Drawn::pending(cursor, state.shown_view(), style)
+    } else {
+        Drawn::at(cursor, frame, image, style)
+    };
     let steps = derivation(reading, state.scene(), &state.picture.rays, &drawn);
-    let before = std::mem::take(&mut state.picture.steps);
-    let is_new = |step: &Step| {
+    let before = &state.picture.steps_before;
+    let pending = &state.picture.steps;
+    let is_new = |(i, step): (usize, &Step)| {
+        // A person may have taken the marks away since.
+        if pending.get(i).is_some_and(|old| old.result == step.result) {
+            return state.picture.changed[i];
+        }
         let old = before.iter().find(|old| old.name == step.name);
         !before.is_empty() && old.is_none_or(|old| old.result != step.result)
     };
-    state.picture.changed = steps.iter().map(is_new).collect();
+    state.picture.changed = steps.iter().enumerate().map(is_new).collect();
     state.picture.steps = steps;
-    walk::keep_step(state, &before);
-    state.prediction.revealed = false;
+    state.picture.is_derivation_pending = is_pending;
 }

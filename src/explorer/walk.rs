@@ -50,7 +50,8 @@ pub(crate) fn go_to_step(state: &mut State, at: usize) {
 
 /// Keeps the step that the person chose when the derivation becomes another one: the step of
 /// that name, or what another method has in its place, else one that stands as far down.
-pub(crate) fn keep_step(state: &mut State, before: &[Step]) {
+pub(crate) fn keep_step(state: &mut State) {
+    let before = &state.picture.steps_before;
     let chosen = match state.kept_step.take() {
         Some((name, at)) if at == state.at.step && !before.is_empty() => Some(name),
         _ => before.get(state.at.step).map(|step| step.name.clone()),

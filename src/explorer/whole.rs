@@ -3,6 +3,7 @@
 
 use std::path::PathBuf;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use ratatui::buffer::Buffer;
 use ratatui::crossterm::event::{Event, KeyEventKind, MouseButton, MouseEvent, MouseEventKind};
@@ -34,6 +35,7 @@ use crate::explorer::state::{State, Work};
 use crate::explorer::tour::{Chapter, Tour};
 use crate::explorer::viewpoint::Viewpoint;
 use crate::explorer::{cursor, look, prepare, walk};
+use crate::render::Allowance;
 use crate::scene::{Scene, Source};
 use crate::system::Waker;
 
@@ -163,9 +165,34 @@ impl Explorer {
     /// Brings picture and panels up to date for a screen of this many columns and rows, which is
     /// drawn next.
     pub fn prepare(&mut self, cols: u16, rows: u16) {
-        self.prepare_picture(cols, rows);
-        self.panels.refresh(&self.state);
+        self.arrange(cols, rows);
+        self.go_on(&mut Allowance::endless());
         self.note_question_shown(true);
+    }
+
+    /// As [`Explorer::prepare`], but only for so long with the picture and what depends on all of it, a
+    /// while for each: what takes longer comes in coarse, and is gone on with by the next call. Whether
+    /// all is done.
+    pub fn prepare_within(&mut self, cols: u16, rows: u16, slice: Duration) -> bool {
+        self.arrange(cols, rows);
+        let is_new = self.state.picture.is_begun_anew();
+        let mut is_done = self.go_on(&mut Allowance::until(Instant::now() + slice));
+        // There is a sketch to show, at least, of what does not come at once.
+        if is_new && !is_done {
+            is_done = self.go_on(&mut Allowance::until(Instant::now() + slice));
+        }
+        self.note_question_shown(true);
+        is_done
+    }
+
+    /// Goes on with what was begun while the allowance lasts; whether it is done.
+    fn go_on(&mut self, allowance: &mut Allowance) -> bool {
+        while !prepare::go_on(&mut self.state, allowance) {
+            if allowance.is_used_up() {
+                return false;
+            }
+        }
+        self.panels.go_on(&self.state, allowance)
     }
 
     fn note_question_shown(&mut self, is_shown: bool) {
@@ -174,10 +201,11 @@ impl Explorer {
         }
     }
 
-    fn prepare_picture(&mut self, cols: u16, rows: u16) {
+    /// Lays the screen out, begins the picture and takes the reading.
+    fn arrange(&mut self, cols: u16, rows: u16) {
         self.state.screen = (cols, rows);
         self.state.layout = self.layout(Rect::new(0, 0, cols, rows));
-        prepare::prepare(&mut self.state);
+        prepare::arrange(&mut self.state);
     }
 
     /// Draws everything; where the terminal's own cursor belongs comes back.
@@ -284,7 +312,7 @@ impl Explorer {
     /// Meant for an explorer that is then thrown away: the cursor stays where that screen has it.
     pub fn rehearse(mut self) -> Result<(), String> {
         let (cols, rows) = USUAL_SCREEN;
-        self.prepare(cols, rows);
+        self.arrange(cols, rows);
         match self.state.message {
             Some(message) if message.warning => Err(message.text),
             _ => Ok(()),
@@ -512,13 +540,13 @@ impl Explorer {
 
 // Keeping picture and layout up to date.
 impl Explorer {
-    /// Brings picture and reading up to date between two drawings, for what acts on them: several
-    /// events may come before the next drawing, and the outcome must not depend on how many. What
-    /// panels show waits for the drawing.
+    /// Brings the reading up to date between two drawings, for what acts on it: several events may come
+    /// before the next drawing, and the outcome must not depend on how many. The picture itself, and what
+    /// panels show, wait for the drawing.
     fn refresh(&mut self) {
         let (cols, rows) = self.state.screen;
         if (cols, rows) != (0, 0) {
-            self.prepare_picture(cols, rows);
+            self.arrange(cols, rows);
         }
     }
 

@@ -8,7 +8,7 @@ use super::bench_lock::{BenchQueue, BenchWait};
 use super::errors::{Fault, FaultCounts, Percentiles};
 use super::timing::{Schedule, SystemClock};
 use crate::method::{Method, root_bits_lost};
-use crate::render::{Contact, Frame, Hit, View};
+use crate::render::{Allowance, Contact, Frame, Hit, View};
 use crate::scene::{Rays, Scene};
 
 /// What is wrong with the picture at one pixel.
@@ -91,16 +91,61 @@ impl PictureErrors {
 /// The errors of a method at each pixel of a picture, row by row, against `exact`: its roots are the
 /// exact ones rounded once, so bits lost are known to half an ulp.
 pub fn pixel_errors(scene: &Scene, rays: &Rays, method: Method) -> Vec<PixelError> {
-    let [found, truth] = [method, Method::Exact].map(|method| {
-        let mut frame = Frame::new();
-        frame.render(scene, rays, method, View::Class);
-        frame
-    });
-    let pixels = (0..rays.size.height).flat_map(|y| (0..rays.size.width).map(move |x| (x, y)));
-    pixels
-        .map(|(x, y)| pixel_error(scene, [&found, &truth], x, y))
-        .collect()
+    let mut comparison = PictureComparison::begin(scene, rays, method);
+    comparison.go_on(scene, rays, &mut Allowance::endless());
+    comparison.errors
 }
+
+/// A picture that is being held against that of `exact`.
+#[derive(Debug, Default)]
+pub struct PictureComparison {
+    found: Frame,
+    truth: Frame,
+    /// The errors of the first pixels.
+    errors: Vec<PixelError>,
+}
+
+impl PictureComparison {
+    /// Begins with the picture that a method makes of a scene.
+    pub fn begin(scene: &Scene, rays: &Rays, method: Method) -> Self {
+        let begun = |method| {
+            let mut frame = Frame::new();
+            frame.begin(scene, rays, method, View::Class);
+            frame
+        };
+        Self {
+            found: begun(method),
+            truth: begun(Method::Exact),
+            errors: Vec::new(),
+        }
+    }
+
+    /// Goes on, with what it was begun for, while the allowance lasts; whether it is done.
+    pub fn go_on(&mut self, scene: &Scene, rays: &Rays, allowance: &mut Allowance) -> bool {
+        for frame in [&mut self.found, &mut self.truth] {
+            if !frame.go_on(scene, rays, allowance) {
+                return false;
+            }
+        }
+        let (width, all) = (rays.size.width as usize, rays.size.area());
+        while self.errors.len() < all && !allowance.is_used_up() {
+            let [x, y] = [self.errors.len() % width, self.errors.len() / width];
+            let frames = [&self.found, &self.truth];
+            self.errors
+                .push(pixel_error(scene, frames, x as u32, y as u32));
+            allowance.spend(PIXEL);
+        }
+        self.errors.len() == all
+    }
+
+    /// The errors of all pixels, once it is done.
+    pub fn into_errors(self) -> Vec<PixelError> {
+        self.errors
+    }
+}
+
+/// About how much work a pixel is.
+const PIXEL: u64 = 20;
 
 fn pixel_error(scene: &Scene, [found, truth]: [&Frame; 2], x: u32, y: u32) -> PixelError {
     match (found.hit(scene, x, y), truth.hit(scene, x, y)) {

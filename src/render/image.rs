@@ -69,6 +69,10 @@ impl Image {
     pub fn draw(&mut self, frame: &Frame, scene: &Scene, look: Look) {
         let (cols, rows) = look.style.cells_of(frame.size());
         self.ramps.set_depth(look.depth);
+        let whole = Canvas {
+            frame,
+            size: frame.size(),
+        };
         let shown = self.shown.filter(|&(_, shown)| shown == look);
         let parts = shown.and_then(|(edition, _)| frame.parts_changed_since(edition));
         self.shown = Some((frame.edition(), look));
@@ -76,26 +80,53 @@ impl Image {
         if let Some(parts) = parts {
             for part in parts {
                 let (across, down) = cells_within(part.widened(frame.size()), look.style);
-                self.draw_part(frame, scene, look, across, down);
+                self.draw_part(whole, scene, look, across, down);
             }
             return;
         }
+        self.resize(cols, rows);
+        self.draw_part(whole, scene, look, 0..cols, 0..rows);
+    }
+
+    /// Draws the picture of `size` of which `sketch` is a frame with fewer and larger pixels.
+    pub fn draw_sketch(&mut self, sketch: &Frame, size: Size, scene: &Scene, look: Look) {
+        let (cols, rows) = look.style.cells_of(size);
+        self.ramps.set_depth(look.depth);
+        self.shown = None;
+        (self.drawn, self.changed) = (0, 0);
+        self.resize(cols, rows);
+        let canvas = Canvas {
+            frame: sketch,
+            size,
+        };
+        self.draw_part(canvas, scene, look, 0..cols, 0..rows);
+    }
+
+    /// Takes this many columns and rows, blank ones if these are others than before.
+    pub fn make_room(&mut self, (cols, rows): (u32, u32)) {
+        if (self.cols, self.rows) != (cols, rows) {
+            self.shown = None;
+            self.resize(cols, rows);
+            self.cells.fill(Cell::BLANK);
+        }
+    }
+
+    fn resize(&mut self, cols: u32, rows: u32) {
         (self.cols, self.rows) = (cols, rows);
         self.cells
             .resize(cols as usize * rows as usize, Cell::BLANK);
-        self.draw_part(frame, scene, look, 0..cols, 0..rows);
     }
 
     fn draw_part(
         &mut self,
-        frame: &Frame,
+        canvas: Canvas,
         scene: &Scene,
         look: Look,
         across: Range<u32>,
         down: Range<u32>,
     ) {
         let mut painter = ImagePainter {
-            frame,
+            canvas,
             scene,
             look,
             ramps: &mut self.ramps,
@@ -147,8 +178,30 @@ fn cells_within(part: Bounds, style: Style) -> (Range<u32>, Range<u32>) {
     (left..right, top..bottom)
 }
 
-struct ImagePainter<'a> {
+/// The pixels of a picture of this size, as a frame of this or of a smaller one has them.
+#[derive(Clone, Copy)]
+struct Canvas<'a> {
     frame: &'a Frame,
+    size: Size,
+}
+
+impl Canvas<'_> {
+    /// The pixel of the frame that shows pixel (x, y).
+    fn place(&self, x: u32, y: u32) -> (u32, u32) {
+        let Size { width, height } = self.frame.size();
+        if self.size == self.frame.size() {
+            return (x, y);
+        }
+        let scaled = |at: u32, few: u32, all: u32| at * few / all.max(1);
+        (
+            scaled(x, width, self.size.width),
+            scaled(y, height, self.size.height),
+        )
+    }
+}
+
+struct ImagePainter<'a> {
+    canvas: Canvas<'a>,
     scene: &'a Scene,
     look: Look,
     ramps: &'a mut Ramps,
@@ -167,12 +220,13 @@ impl ImagePainter<'_> {
 
     /// What is to be seen at pixel (x, y); nothing where nothing is.
     fn ink(&mut self, x: u32, y: u32) -> Option<Ink> {
-        ink(self.frame, self.scene, self.look, self.ramps, (x, y))
+        let place = self.canvas.place(x, y);
+        ink(self.canvas.frame, self.scene, self.look, self.ramps, place)
     }
 
     /// Whether levels are shown by how many dots there are, for want of colours.
     fn dithers(&self) -> bool {
-        self.look.depth == ColorDepth::None && self.frame.view().has_levels()
+        self.look.depth == ColorDepth::None && self.canvas.frame.view().has_levels()
     }
 
     /// Whether the pixel (x, y) of this level is bright enough for its place in the pattern, or an
@@ -180,20 +234,26 @@ impl ImagePainter<'_> {
     fn has_dot(&self, x: u32, y: u32, ink: &Ink) -> bool {
         let rank = BAYER[y as usize % 4][x as usize % 4];
         let threshold = (f32::from(rank) + 0.5) / 16.0;
-        ink.level > threshold || self.frame.outline(self.scene, x, y)
+        ink.level > threshold || self.is_outline(x, y)
+    }
+
+    fn is_outline(&self, x: u32, y: u32) -> bool {
+        let (x, y) = self.canvas.place(x, y);
+        self.canvas.frame.outline(self.scene, x, y)
     }
 
     fn ascii(&mut self, x: u32, y: u32) -> Cell {
         match self.ink(x, y) {
             Some(ink) => Cell::of(ink.glyph, ink.color),
-            None if self.frame.view() == View::Class => Cell::plain('.'),
+            None if self.canvas.frame.view() == View::Class => Cell::plain('.'),
             None => Cell::BLANK,
         }
     }
 
     /// The tutorial's two characters, of which this is one.
     fn tutorial(&self, x: u32, y: u32) -> char {
-        match self.frame.contact(x, y) {
+        let (x, y) = self.canvas.place(x, y);
+        match self.canvas.frame.contact(x, y) {
             Contact::Nan => NO_ANSWER,
             contact if contact.meets() => '+',
             _ => '-',
@@ -227,7 +287,7 @@ impl ImagePainter<'_> {
         let colored = self.look.depth != ColorDepth::None;
         match ink {
             None => 0b00,
-            Some(_) if colored && self.frame.view() != View::Class => 0b11,
+            Some(_) if colored && self.canvas.frame.view() != View::Class => 0b11,
             Some(ink) => ink.quarters,
         }
     }

@@ -277,6 +277,19 @@ impl Rays {
         }
     }
 
+    /// The rays of the same picture in pixels about this many times as wide and as high.
+    #[must_use]
+    pub fn coarser(&self, times: u32) -> Self {
+        let [w, h] = [self.size.width, self.size.height].map(|n| n.div_ceil(times));
+        let stretch = |all: u32, few: u32| f64::from(all) / f64::from(few.max(1));
+        Self {
+            size: Size::new(w, h),
+            right: self.right * stretch(self.size.width, w),
+            down: self.down * stretch(self.size.height, h),
+            ..*self
+        }
+    }
+
     /// The ray of pixel (x, y), counted from 0 at the top left.
     ///
     /// It passes through the point (x − (W−1)/2, y − (H−1)/2), in pixel steps right and down from

@@ -1,7 +1,8 @@
 //! The terminal: what it can do; taken over and given back; the loop between it and the explorer.
 //!
 //! Nothing is drawn unless something changed: the loop waits for input, takes what else is queued,
-//! updates, and draws once, as soon as the terminal has dealt with what was drawn before.
+//! updates, and draws once, as soon as the terminal has dealt with what was drawn before. A picture that takes
+//! long is drawn as far as it is, and gone on with while no input comes.
 
 mod capability;
 mod clipboard;
@@ -50,14 +51,20 @@ pub enum TerminalInput {
 
 /// Runs the explorer until the person leaves or the terminal is gone; the exit status.
 pub fn run(explorer: &mut Explorer, session: &mut Session) -> io::Result<u8> {
-    let mut due = true;
+    // Something changed, or the picture is not done.
+    let [mut due, mut unfinished] = [true, false];
     explorer.wake_by(session.waker());
     loop {
         if due && session.is_ready() {
-            session.show(explorer)?;
+            unfinished = !session.show(explorer)?;
             due = false;
         }
-        session.wait(due)?;
+        if unfinished && session.is_ready() {
+            session.look_in()?;
+        } else {
+            session.wait(due || unfinished)?;
+        }
+        due |= unfinished;
         for _ in 0..MOST_AT_ONCE {
             match session.next()? {
                 Some(TerminalInput::Event(event)) => due |= explorer.update(&event),

@@ -32,6 +32,9 @@ const ASK_GROUND: &[u8] = b"\x1b[?2031h\x1b]11;?\x1b\\";
 const MOUSE_ON: &[u8] = b"\x1b[?1000h\x1b[?1006h";
 const MOUSE_OFF: &[u8] = b"\x1b[?1006l\x1b[?1000l";
 
+/// How long a picture is worked on before input has a turn: two of these, and what the rest of the screen
+/// takes, are well below what a person notices.
+const SLICE: Duration = Duration::from_millis(20);
 /// How long a terminal that does not read may hold up the end.
 const END_PATIENCE: Duration = Duration::from_millis(500);
 /// The largest screen that is drawn, in columns and rows; a terminal can say any size of itself.
@@ -282,13 +285,14 @@ impl Session {
         sane
     }
 
-    /// The next frame: what brings the terminal from what it shows to the explorer's state.
-    fn compose(&mut self, explorer: &mut Explorer) {
+    /// The next frame: what brings the terminal from what it shows to the explorer's state; whether all
+    /// of that is done.
+    fn compose(&mut self, explorer: &mut Explorer) -> bool {
         let (cols, rows) = self.sane_size(explorer);
         self.canvas.resize(Rect::new(0, 0, cols, rows));
         self.canvas.reset();
         explorer.set_coarse(self.detail.draws(Instant::now()));
-        explorer.prepare(cols, rows);
+        let is_done = explorer.prepare_within(cols, rows, SLICE);
         let cursor = explorer.draw(&mut self.canvas);
         let limits = Limits::of(&explorer.options());
         let bytes = self.painter.paint(&mut self.canvas, cursor, limits);
@@ -299,6 +303,7 @@ impl Session {
             let change = if self.mouse { MOUSE_ON } else { MOUSE_OFF };
             self.frame.extend_from_slice(change);
         }
+        is_done
     }
 }
 
@@ -326,11 +331,17 @@ impl Session {
         self.look(until.map(|at| at.saturating_duration_since(now)))
     }
 
-    /// What came in next, if anything has.
-    pub(super) fn next(&mut self) -> io::Result<Option<TerminalInput>> {
+    /// Takes in what there is, without waiting.
+    pub(super) fn look_in(&mut self) -> io::Result<()> {
         if self.inputs.is_empty() {
             self.look(Some(Duration::ZERO))?;
         }
+        Ok(())
+    }
+
+    /// What came in next, if anything has.
+    pub(super) fn next(&mut self) -> io::Result<Option<TerminalInput>> {
+        self.look_in()?;
         let now = Instant::now();
         let is_idle = self.inputs.is_empty() && self.has_room(now);
         if is_idle && self.detail.rests(now) {
@@ -349,11 +360,11 @@ impl Session {
         is_ready
     }
 
-    /// Brings the screen up to date.
-    pub(super) fn show(&mut self, explorer: &mut Explorer) -> io::Result<()> {
-        self.compose(explorer);
+    /// Brings the screen up to date, or nearer to that; whether it is.
+    pub(super) fn show(&mut self, explorer: &mut Explorer) -> io::Result<bool> {
+        let is_done = self.compose(explorer);
         if self.frame.is_empty() {
-            return Ok(());
+            return Ok(is_done);
         }
         let (bytes, now) = (self.frame.len(), Instant::now());
         self.unseen = explorer.is_asking().then_some(now);
@@ -368,7 +379,8 @@ impl Session {
             self.frame.extend_from_slice(QUERY);
         }
         self.pace.wrote(bytes, asks, now);
-        self.flush()
+        self.flush()?;
+        Ok(is_done)
     }
 
     /// Puts text into the clipboard of the person, if their terminal does such things.

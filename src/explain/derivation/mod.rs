@@ -33,9 +33,25 @@ pub struct Drawn {
     pub style: Style,
     /// What the picture shows.
     pub view: View,
+    /// Whether the picture is still being made, so that the others are not known.
+    pub is_pending: bool,
 }
 
 impl Drawn {
+    /// What a picture that is still being made will show of pixel (x, y).
+    pub const fn pending((_, y): (u32, u32), view: View, style: Style) -> Self {
+        Self {
+            brightness: 0.0,
+            glyph: ' ',
+            has_ground: false,
+            row: y,
+            partner: 0.0,
+            style,
+            view,
+            is_pending: true,
+        }
+    }
+
     /// What a frame and its image made of pixel (x, y).
     pub fn at((x, y): (u32, u32), frame: &Frame, image: &Image, style: Style) -> Self {
         let (col, row) = style.cell_of_pixel(x, y);
@@ -48,6 +64,7 @@ impl Drawn {
             partner: frame.brightness(x, y ^ 1),
             style,
             view: frame.view(),
+            is_pending: false,
         }
     }
 }

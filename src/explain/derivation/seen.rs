@@ -198,7 +198,7 @@ fn normal_step(subject: &Subject, sight: &Sight) -> Step {
 /// The brightness that the picture has, to be shown; in another view, that it would have.
 fn brightness(drawn: &Drawn, cosine: f64) -> String {
     let value = match drawn.view {
-        View::Shade => f64::from(drawn.brightness),
+        View::Shade if !drawn.is_pending => f64::from(drawn.brightness),
         _ => AMBIENT + (1.0 - AMBIENT) * cosine.max(0.0),
     };
     three_digits(value)
@@ -290,6 +290,9 @@ fn headlight_step(reading: &Reading, subject: &Subject, drawn: &Drawn) -> Step {
     }
 }
 
+/// What comes out of a picture that is still being made.
+const PENDING: &str = "the picture is still being drawn";
+
 fn glyph_step(subject: &Subject, drawn: &Drawn) -> Step {
     let name = subject.name.as_deref().unwrap_or("the sphere");
     let (view, style) = (drawn.view, drawn.style);
@@ -304,6 +307,12 @@ fn glyph_step(subject: &Subject, drawn: &Drawn) -> Step {
             style.name()
         ),
     };
+    if drawn.is_pending {
+        return Step {
+            result: PENDING.into(),
+            ..Step::plain("glyph", &why, "")
+        };
+    }
     let shown = three_digits(drawn.brightness.into());
     let (formula, numbers, code) = match (view, style) {
         (_, Style::Tutorial) => (
@@ -328,7 +337,7 @@ fn glyph_step(subject: &Subject, drawn: &Drawn) -> Step {
         (_, Style::Braille) => (
             "2 × 4 pixels → as many dots".to_owned(),
             String::new(),
-            "ink.level > threshold || self.frame.outline(self.scene, x, y)",
+            "ink.level > threshold || self.is_outline(x, y)",
         ),
         (view, Style::Ascii) => (
             format!("{} → character", view.name()),

@@ -82,7 +82,11 @@ pub(crate) fn draw(
     };
     let hidden = if veiled { ", hidden" } else { "" };
     let coarse = if state.coarse { ", coarse" } else { "" };
-    let title = format!("view {size}{hidden}{coarse}");
+    let more = match state.picture.percent_done() {
+        Some(percent) => format!(", {percent}% drawn"),
+        None => String::new(),
+    };
+    let title = format!("view {size}{hidden}{coarse}{more}");
     pen.border_text(area, area.y, &title, at.map(|at| at.x));
     if let Some(at) = at {
         mark_cursor(state, pen, area, at);

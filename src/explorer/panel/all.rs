@@ -9,6 +9,7 @@ use crate::explorer::panel::{
     Panel, bits, compare, curve, dial, error, plan, quadratic, slice, steps, with_panels,
 };
 use crate::explorer::state::State;
+use crate::render::Allowance;
 use crate::text;
 
 macro_rules! components {
@@ -42,9 +43,9 @@ impl Panels {
         self.all().any(|panel| panel.act(action, state))
     }
 
-    /// Brings all panels up to date with the picture.
-    pub(crate) fn refresh(&mut self, state: &State) {
-        self.all().for_each(|panel| panel.refresh(state));
+    /// Brings all panels up to date with the picture, while the allowance lasts; whether they are.
+    pub(crate) fn go_on(&mut self, state: &State, allowance: &mut Allowance) -> bool {
+        self.all().all(|panel| panel.go_on(state, allowance))
     }
 }
 

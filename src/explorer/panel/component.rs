@@ -8,6 +8,7 @@ use crate::explain::Line;
 use crate::explorer::action::Action;
 use crate::explorer::panel::Panel;
 use crate::explorer::state::State;
+use crate::render::Allowance;
 
 /// One panel: its state, its actions, its lines and its foot.
 pub(crate) trait Component: Debug {
@@ -24,8 +25,10 @@ pub(crate) trait Component: Debug {
         false
     }
 
-    /// Brings what it shows up to date with the picture.
-    fn refresh(&mut self, _state: &State) {}
+    /// Brings what it shows up to date with the picture, while the allowance lasts; whether it is.
+    fn go_on(&mut self, _state: &State, _allowance: &mut Allowance) -> bool {
+        true
+    }
 
     /// Whether its lines say how much they may be spared, so that it is fitted before it is cut.
     fn is_fitted(&self) -> bool {

@@ -14,11 +14,11 @@ use crate::explorer::panel::Panel;
 use crate::explorer::panel::component::{AS_FIGURE, Component};
 use crate::explorer::state::State;
 use crate::lab::chart::DialPoint;
-use crate::lab::picture::{PictureErrors, PixelError, pixel_errors};
+use crate::lab::picture::{PictureComparison, PictureErrors, PixelError};
 use crate::lab::{Dial, Turn};
 use crate::method::Method;
-use crate::render::Style;
-use crate::scene::{PixelShape, Rays, Size};
+use crate::render::{Allowance, Style};
+use crate::scene::{PixelShape, Rays, Scene, Size};
 use crate::text;
 
 /// The dial that was chosen, and what it has shown so far.
@@ -27,10 +27,26 @@ pub(crate) struct DialPanel {
     pub(crate) dial: &'static Dial,
     /// What the picture on the screen gets wrong, row by row; empty where that is not asked.
     errors: Vec<PixelError>,
-    errors_of: Option<(u64, Rays, Method)>,
+    errors_of: Option<ErrorsOf>,
+    /// What is being found out about it.
+    comparison: Option<(ErrorsOf, PictureComparison)>,
     /// What each setting that was tried gets wrong.
     found: BTreeMap<u32, PictureErrors>,
     found_of: Option<FoundOf>,
+    /// The setting that is being tried.
+    trial: Option<Trial>,
+}
+
+/// What the errors of the picture on the screen depend on.
+type ErrorsOf = (u64, Rays, Method);
+
+/// A setting that is being tried.
+#[derive(Debug)]
+struct Trial {
+    k: u32,
+    scene: Scene,
+    rays: Rays,
+    comparison: PictureComparison,
 }
 
 /// What the errors at all settings depend on.
@@ -49,14 +65,16 @@ impl Default for DialPanel {
             dial: &Dial::ALL[0],
             errors: Vec::new(),
             errors_of: None,
+            comparison: None,
             found: BTreeMap::new(),
             found_of: None,
+            trial: None,
         }
     }
 }
 
-/// So many times may all settings of a dial ask a method about a sphere while a key waits: some
-/// hundredths of a second. In larger scenes only those are tried that tell where it broke.
+/// So many times may all settings of a dial ask a method about a sphere: in larger scenes only those
+/// settings are tried that tell where it broke.
 const MOST_ASKED: usize = 2_000_000;
 
 impl DialPanel {
@@ -102,20 +120,14 @@ impl Component for DialPanel {
     }
 
     /// Finds out what the picture on the screen gets wrong, if it is marked.
-    fn refresh(&mut self, state: &State) {
+    fn go_on(&mut self, state: &State, allowance: &mut Allowance) -> bool {
         self.follow(state);
         if !marks_wrong(state) {
             self.errors.clear();
-            self.errors_of = None;
-            return;
+            (self.errors_of, self.comparison, self.trial) = (None, None, None);
+            return true;
         }
-        let (rays, method) = (state.picture.rays, state.at.method);
-        let key = (state.work.document.version(), rays, method);
-        if self.errors_of != Some(key) {
-            self.errors = pixel_errors(state.scene(), &rays, method);
-            self.errors_of = Some(key);
-        }
-        self.try_settings(state);
+        self.compare_picture(state, allowance) && self.try_settings(state, allowance)
     }
 
     fn size_as_text(&self) -> (u16, u16) {
@@ -205,10 +217,32 @@ impl DialPanel {
         }
     }
 
-    /// Notes what the present setting gets wrong, and tries others to tell where the dial broke.
-    fn try_settings(&mut self, state: &State) {
+    /// Holds the picture on the screen against that of `exact`; whether that is done.
+    fn compare_picture(&mut self, state: &State, allowance: &mut Allowance) -> bool {
+        let (scene, rays, method) = (state.scene(), &state.picture.rays, state.at.method);
+        let key = (state.work.document.version(), *rays, method);
+        if self.errors_of == Some(key) {
+            return true;
+        }
+        self.errors.clear();
+        self.errors_of = None;
+        let begun = self.comparison.take().filter(|(of, _)| *of == key);
+        let (_, mut comparison) =
+            begun.unwrap_or_else(|| (key, PictureComparison::begin(scene, rays, method)));
+        if !comparison.go_on(scene, rays, allowance) {
+            self.comparison = Some((key, comparison));
+            return false;
+        }
+        self.errors = comparison.into_errors();
+        self.errors_of = Some(key);
+        true
+    }
+
+    /// Notes what the present setting gets wrong, and tries others to tell where the dial broke; whether
+    /// that is done.
+    fn try_settings(&mut self, state: &State, allowance: &mut Allowance) -> bool {
         let Some(shape) = state.picture.key.map(|key| key.shape) else {
-            return;
+            return true;
         };
         let key = FoundOf {
             ground: state.work.document.ground_version(),
@@ -219,60 +253,79 @@ impl DialPanel {
         };
         if self.found_of != Some(key) {
             self.found.clear();
+            self.trial = None;
             self.found_of = Some(key);
         }
         let now = PictureErrors::of(&self.errors);
-        let setting = setting(state);
-        self.found.insert(setting, now);
-        let all: Vec<u32> = std::iter::once(0).chain(self.dial.turns()).collect();
+        self.found.insert(setting(state), now);
+        while let Some(k) = self.next_to_try(state) {
+            if !self.try_setting(state, (k, key), allowance) {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// The next setting to try: each of them or, if that would be much, the one half way between the last
+    /// good and the first bad one, until these are neighbours.
+    fn next_to_try(&self, state: &State) -> Option<u32> {
+        let all = || std::iter::once(0).chain(self.dial.turns());
         let spheres = state.scene().bodies.len();
         let asked = state
             .size()
             .area()
             .saturating_mul(spheres)
-            .saturating_mul(all.len());
-        if asked <= MOST_ASKED {
-            for k in all {
-                self.try_setting(state, k, shape);
-            }
-        } else {
-            self.try_setting(state, 0, shape);
-            self.halve(state, &all, shape);
+            .saturating_mul(all().count());
+        if asked <= MOST_ASKED || !self.found.contains_key(&0) {
+            return all().find(|k| !self.found.contains_key(k));
         }
+        let bad = self.broke()?;
+        let (&good, _) = self.found.range(..bad).next_back()?;
+        let between: Vec<u32> = all().filter(|k| (good + 1..bad).contains(k)).collect();
+        between.get(between.len() / 2).copied()
     }
 
-    /// Tries the setting half way between the last good and the first bad one, until they are
-    /// neighbours.
-    fn halve(&mut self, state: &State, all: &[u32], shape: PixelShape) {
-        while let Some(bad) = self.broke() {
-            let good = self.found.range(..bad).next_back();
-            let Some((&good, _)) = good else { return };
-            let between: Vec<u32> = all
-                .iter()
-                .copied()
-                .filter(|k| (good + 1..bad).contains(k))
-                .collect();
-            if between.is_empty() {
-                return;
-            }
-            self.try_setting(state, between[between.len() / 2], shape);
-        }
-    }
-
-    fn try_setting(&mut self, state: &State, k: u32, shape: PixelShape) {
-        if self.found.contains_key(&k) {
-            return;
-        }
-        let ground = state.work.document.ground();
-        let turned = match k {
-            0 => Some(ground.clone()),
-            k => self.dial.turn(ground, k),
+    /// Tries a setting while the allowance lasts; whether that is done.
+    fn try_setting(
+        &mut self,
+        state: &State,
+        (k, of): (u32, FoundOf),
+        allowance: &mut Allowance,
+    ) -> bool {
+        let begun = self.trial.take().filter(|trial| trial.k == k);
+        let Some(mut trial) = begun.or_else(|| self.begin_trial(state, (k, of))) else {
+            self.found.insert(k, PictureErrors::default());
+            return true;
         };
-        let errors = turned.map_or(PictureErrors::default(), |scene| {
-            let rays = Rays::new(&scene.camera, state.size(), shape);
-            PictureErrors::of(&pixel_errors(&scene, &rays, state.at.method))
-        });
-        self.found.insert(k, errors);
+        let Trial {
+            scene,
+            rays,
+            comparison,
+            ..
+        } = &mut trial;
+        if !comparison.go_on(scene, rays, allowance) {
+            self.trial = Some(trial);
+            return false;
+        }
+        let errors = trial.comparison.into_errors();
+        self.found.insert(k, PictureErrors::of(&errors));
+        true
+    }
+
+    /// The scene at a setting; none if it can't be turned so far.
+    fn begin_trial(&self, state: &State, (k, of): (u32, FoundOf)) -> Option<Trial> {
+        let ground = state.work.document.ground();
+        let scene = match k {
+            0 => ground.clone(),
+            k => self.dial.turn(ground, k)?,
+        };
+        let rays = Rays::new(&scene.camera, of.size, of.shape);
+        Some(Trial {
+            k,
+            comparison: PictureComparison::begin(&scene, &rays, of.method),
+            scene,
+            rays,
+        })
     }
 
     /// How far the dial is turned, what is wrong there, where it broke, and the way there.
@@ -294,6 +347,10 @@ impl DialPanel {
                 Role::Plain,
                 "\\ turns it on, from tame to broken; | turns it back.",
             );
+            return lines;
+        }
+        if self.errors_of.is_none() {
+            say(Role::Faint, "The picture is still being compared.");
             return lines;
         }
         let errors = found.get(&now).copied().unwrap_or_default();

@@ -20,6 +20,7 @@ use crate::lab::bench::Benchmark;
 use crate::lab::picture::{NoChart, chart};
 use crate::lab::timing::SelfCheck;
 use crate::lab::{BenchQueue, BenchWait};
+use crate::render::Allowance;
 use crate::scene::{Rays, Scene};
 use crate::system::Waker;
 use crate::text;
@@ -257,12 +258,13 @@ impl Component for ErrorPanel {
     }
 
     /// Finds out whether the chart is of the picture on the screen.
-    fn refresh(&mut self, state: &State) {
+    fn go_on(&mut self, state: &State, _: &mut Allowance) -> bool {
         let key = (state.work.document.version(), state.picture.rays);
         if let Some(chart) = self.chart.as_mut().filter(|chart| chart.seen != Some(key)) {
             chart.is_stale = !chart.of.is(state.scene(), &key.1);
             chart.seen = Some(key);
         }
+        true
     }
 
     fn size_as_text(&self) -> (u16, u16) {

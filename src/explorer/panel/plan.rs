@@ -15,7 +15,9 @@ impl Component for PlanPanel {
     /// What the picture needed when it was made or mended, and whether that was now.
     fn text(&self, state: &State, room: Rect) -> (String, Vec<Line>) {
         let plan = state.picture.frame.plan();
-        let frame = if state.picture.rests {
+        let frame = if state.picture.percent_done().is_some() {
+            "This frame: a picture of which this much is done so far."
+        } else if state.picture.rests {
             "This frame: the picture rests."
         } else if plan.counts().kept > 0 {
             "This frame: the picture mended."
