@@ -97,21 +97,18 @@ impl Desk {
     }
 
     fn press(&mut self, key: KeyCode) -> bool {
-        let event = Event::Key(KeyEvent::new(key, KeyModifiers::NONE));
         self.turn(&format!("{key:?}"), |explorer| {
-            explorer.update(&event);
+            explorer.update(&pressed(key));
         })
     }
 
     fn types(&mut self, line: &str) {
         let keys = format!(":{line}");
         for key in keys.chars().map(KeyCode::Char) {
-            let event = Event::Key(KeyEvent::new(key, KeyModifiers::NONE));
-            self.explorer.update(&event);
+            self.explorer.update(&pressed(key));
         }
-        let enter = Event::Key(KeyEvent::new(KeyCode::Enter, KeyModifiers::NONE));
         self.turn(line, |explorer| {
-            explorer.update(&enter);
+            explorer.update(&pressed(KeyCode::Enter));
         });
     }
 }
@@ -180,4 +177,48 @@ fn a_slice_is_bounded_work() {
             assert!(slices > 2, "{slices}, {}", scene.name);
         }
     }
+}
+
+/// Keys that come while the picture is unfinished, and those that wait for it, lead to the same screen.
+#[test]
+fn a_screen_that_came_in_slices_is_the_same() {
+    let mut random = Random::new(3);
+    for scene in [
+        around_the_eye(60),
+        nearly_coincident(60),
+        Builtin::Crowd.scene(),
+    ] {
+        let [mut patient, mut hasty] = [(); 2].map(|()| {
+            let source = Source::Builtin(Builtin::Trio);
+            Explorer::new(scene.clone(), &source, Options::default())
+        });
+        let screen = |explorer: &Explorer| {
+            let mut buffer = Buffer::empty(Rect::new(0, 0, 80, 24));
+            explorer.draw(&mut buffer);
+            buffer
+        };
+        for _ in 0..12 {
+            for _ in 0..=random.below(4) {
+                let key = b"adwsvvmmhjl9\\"[random.below(13) as usize] as char;
+                for explorer in [&mut patient, &mut hasty] {
+                    explorer.update(&pressed(KeyCode::Char(key)));
+                }
+                patient.prepare(80, 24);
+                for _ in 0..random.below(4) {
+                    hasty.prepare_within(80, 24, Duration::ZERO);
+                }
+            }
+            while !hasty.prepare_within(80, 24, Duration::ZERO) {}
+            // What changed since the key before depends on what was seen of it.
+            for explorer in [&mut patient, &mut hasty] {
+                explorer.update(&pressed(KeyCode::Esc));
+                explorer.prepare(80, 24);
+            }
+            assert_eq!(screen(&hasty), screen(&patient), "{}", scene.name);
+        }
+    }
+}
+
+fn pressed(key: KeyCode) -> Event {
+    Event::Key(KeyEvent::new(key, KeyModifiers::NONE))
 }

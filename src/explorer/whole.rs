@@ -166,7 +166,7 @@ impl Explorer {
     /// drawn next.
     pub fn prepare(&mut self, cols: u16, rows: u16) {
         self.arrange(cols, rows);
-        self.go_on(&mut Allowance::endless());
+        self.work(&mut Allowance::endless());
         self.note_question_shown(true);
     }
 
@@ -176,17 +176,17 @@ impl Explorer {
     pub fn prepare_within(&mut self, cols: u16, rows: u16, slice: Duration) -> bool {
         self.arrange(cols, rows);
         let is_new = self.state.picture.is_begun_anew();
-        let mut is_done = self.go_on(&mut Allowance::until(Instant::now() + slice));
+        let mut is_done = self.work(&mut Allowance::until(Instant::now() + slice));
         // There is a sketch to show, at least, of what does not come at once.
         if is_new && !is_done {
-            is_done = self.go_on(&mut Allowance::until(Instant::now() + slice));
+            is_done = self.work(&mut Allowance::until(Instant::now() + slice));
         }
         self.note_question_shown(true);
         is_done
     }
 
     /// Goes on with what was begun while the allowance lasts; whether it is done.
-    fn go_on(&mut self, allowance: &mut Allowance) -> bool {
+    fn work(&mut self, allowance: &mut Allowance) -> bool {
         while !prepare::go_on(&mut self.state, allowance) {
             if allowance.is_used_up() {
                 return false;
