@@ -20,7 +20,7 @@ use rayscope::geometry::Ray;
 use rayscope::lab::{BenchQueue, HEADER};
 use rayscope::method::{Class, Method, Precision};
 use rayscope::render::{ColorDepth, Style};
-use rayscope::scene::{PixelShape, Rays, Scene, Size};
+use rayscope::scene::{Builtin, PixelShape, Rays, Scene, Size};
 use rayscope::system::Waker;
 use rayscope::text::Glyphs;
 use tempfile::TempDir;
@@ -781,6 +781,151 @@ fn a_line_of_the_help_is_found_and_done() {
 }
 
 #[test]
+fn the_footer_names_the_keys_of_the_panel_and_the_lens_and_the_tangent() {
+    let mut person = Person::opens("opening", 80, 24);
+    let mut footers = Vec::new();
+    for (keys, word) in [
+        ("1", "L machine"),
+        ("L", "m method"),
+        ("2", "P predict"),
+        ("3", "( ) move p"),
+        ("6", "enter steps"),
+    ] {
+        let screen = person.presses(keys).screen();
+        let footer = screen.lines().last().expect("a footer").to_owned();
+        for word in ["space menu", word, "t tangent"] {
+            assert!(footer.contains(word), "{keys}: no {word} in {footer}");
+        }
+        footers.push(footer);
+    }
+    footers.dedup();
+    assert_eq!(footers.len(), 5);
+}
+
+#[test]
+fn the_half_of_the_cell_that_the_cursor_is_on_is_seen() {
+    for options in [
+        Options::default(),
+        Options {
+            depth: ColorDepth::None,
+            ..Options::default()
+        },
+    ] {
+        let start = Start {
+            options,
+            ..Start::default()
+        };
+        let mut person = Person::with("opening", 80, 24, start);
+        for mark in ["◓", "◒"] {
+            let screen = person.screen();
+            assert_eq!(screen.matches(mark).count(), 1, "{screen}");
+            let row = screen.lines().position(|line| line.contains(mark));
+            assert_eq!(row, Some(12));
+            person.presses("down");
+        }
+    }
+}
+
+#[test]
+fn a_new_sphere_is_seen_where_the_cursor_points_and_is_selected() {
+    for scene in Builtin::ALL.map(Builtin::name) {
+        let mut person = Person::with(scene, 80, 24, Start::default());
+        for keys in [
+            "",
+            "shift-left shift-up",
+            "shift-left shift-left shift-down",
+        ] {
+            let count = person.presses(keys).explorer.scene().bodies.len();
+            person.presses("i").shows("is added under the cursor");
+            let reading = person.explorer.reading().expect("a reading");
+            let subject = reading.subject.as_ref().expect("a sphere");
+            assert_eq!(subject.body, count, "{scene} {keys}");
+            assert_eq!(
+                reading.meetings[0].body, count,
+                "{scene} {keys}: it is seen"
+            );
+            assert_eq!(person.explorer.viewpoint().sphere, Some(count));
+        }
+    }
+    let mut person = Person::opens("opening", 80, 24);
+    let new = person.presses("i").explorer.scene().bodies[3].sphere;
+    assert_eq!(
+        (new.center.to_array(), new.radius),
+        ([20.0, 20.0, 5.0], 2.0)
+    );
+}
+
+#[test]
+fn undo_and_redo_say_what_they_did() {
+    let mut person = Person::opens("trio", 80, 24);
+    for (keys, deed) in [
+        ("x", "sphere 1 was moved"),
+        ("g", "sphere 1 was made larger"),
+        ("G", "sphere 1 was made smaller"),
+        ("i", "sphere 4 was added"),
+        ("delete", "sphere 3 was deleted"),
+        ("d", "the camera was moved"),
+        ("+", "the view was made wider or narrower"),
+        ("9 \\", "the dial was turned"),
+    ] {
+        person
+            .presses(keys)
+            .presses("u")
+            .shows(&format!("Taken back: {deed}."));
+        person.presses("U").shows(&format!("Done again: {deed}."));
+    }
+}
+
+#[test]
+fn a_pasted_command_opens_the_view_that_it_was_made_from() {
+    let mut teacher = Person::opens("far", 80, 24);
+    teacher.presses("N right L 3").commands("method haines");
+    let line = rayscope::explorer::command_line(&teacher.explorer.link().expect("a link"));
+    let paste = |person: &mut Person, line: &str| {
+        person
+            .presses("esc :")
+            .explorer
+            .update(&Event::Paste(line.into()));
+        person.presses("enter");
+    };
+    let mut student = Person::opens("trio", 80, 24);
+    paste(&mut student, &line);
+    assert_eq!(student.explorer.link(), teacher.explorer.link());
+    assert_eq!(
+        student.presses("esc").screen(),
+        teacher.presses("esc").screen()
+    );
+
+    let mut busy = Person::opens("tutorial", 80, 24);
+    busy.presses("x");
+    paste(&mut busy, &line);
+    busy.shows("Unsaved changes");
+    busy.presses("o");
+    assert_eq!(busy.explorer.link(), teacher.explorer.link());
+    paste(&mut busy, "rayscope tour three-rays --page 2 --panel slice");
+    busy.shows("page 2/4");
+    busy.shows("slice");
+
+    for (line, sentence) in [
+        (
+            "rayscope trio --colour never",
+            "--colour is no flag of a view",
+        ),
+        ("rayscope trio --cursor 'x", "a quote without its end"),
+        ("rayscope trio --cursor x", "cursor: found “x”"),
+        ("rayscope trio far", "found “far”, expected one scene"),
+        ("rayscope tour 5 --page 9", "expected a page from 1 to 4"),
+        ("rayscope tour none", "expected a chapter"),
+        ("rayscope trio --sphere 9", "expected a sphere from 1 to 3"),
+        ("rayscope nowhere", "nowhere"),
+    ] {
+        let mut person = Person::opens("tutorial", 80, 24);
+        paste(&mut person, line);
+        person.shows(sentence);
+    }
+}
+
+#[test]
 fn a_paste_is_no_burst_of_commands() {
     let mut person = Person::opens("tutorial", 80, 24);
     let before = person.explorer.scene().clone();
@@ -1388,13 +1533,35 @@ fn the_guide_lists_the_keys_that_there_are() {
 }
 
 #[test]
-fn the_readme_shows_the_real_screen() {
-    let start = Start {
-        style: Some(Style::Ascii),
-        ..Start::default()
-    };
-    let screen = Person::with("trio", 80, 24, start).screen();
-    hold_to_docs("README.md", "screen", &format!("```text\n{screen}```\n"));
+fn the_pictures_of_the_readme_are_the_real_screens() {
+    let readme = include_str!("../README.md");
+    for (name, arguments) in [
+        ("opening", &["opening"] as &[&str]),
+        ("steps", &["opening", "--pixel", "20,20", "--steps"]),
+    ] {
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_rayscope"))
+            .args(["print", "--svg"])
+            .args(arguments)
+            .env_clear()
+            .output()
+            .expect("the program");
+        let svg = String::from_utf8(output.stdout).expect("text");
+        assert!(
+            svg.starts_with("<svg ") && svg.ends_with("</svg>\n"),
+            "{svg}"
+        );
+        assert!(readme.contains(&format!("(docs/{name}.svg)")));
+        let path = format!("{}/docs/{name}.svg", env!("CARGO_MANIFEST_DIR"));
+        if std::env::var_os("RAYSCOPE_UPDATE_DOCS").is_some() {
+            fs::write(path, svg).expect("the picture written");
+        } else {
+            let is_current = fs::read_to_string(&path).is_ok_and(|old| old == svg);
+            assert!(
+                is_current,
+                "RAYSCOPE_UPDATE_DOCS=1 cargo test rewrites {path}"
+            );
+        }
+    }
 }
 
 /// What stands between the marks `NAME` and `end of NAME` of a page is `text`.

@@ -6,10 +6,13 @@ use std::io::{self, IsTerminal as _};
 
 use clap::Args;
 use crossterm::terminal::window_size;
+use ratatui::buffer::Buffer;
+use ratatui::layout::Rect;
 
-use super::appearance::{Color, default_style};
+use super::appearance::{Color, ColorChoice, default_style};
 use super::{Failure, Outcome, aspect, choice, write_out, write_picture};
 use crate::explain::{self, Digits, Drawn, Reading};
+use crate::explorer::{self, Explorer, Options, Palette, Panel, Setting};
 use crate::method::Method;
 use crate::render::{
     AnsiColor, CELL_ASPECT, Cell, ColorDepth, Frame, Image, Look, Style, View, fit,
@@ -53,6 +56,15 @@ pub(super) struct Print {
     #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
     pixel: Option<(u32, u32)>,
 
+    /// The explorer's screen as SVG: the picture, and the panel of the pixel (of the one in the middle
+    /// without --pixel)
+    #[arg(long)]
+    svg: bool,
+
+    /// The colours of the SVG [default: dark]
+    #[arg(long, env = "RAYSCOPE_THEME", hide_env_values = true, value_parser = choice(&Palette::ALL, Palette::name))]
+    theme: Option<Palette>,
+
     /// The whole derivation of that pixel, step by step
     #[arg(long, requires = "pixel")]
     steps: bool,
@@ -60,11 +72,46 @@ pub(super) struct Print {
 
 /// Draws the scene, or reads one pixel of it, and ends with the exit status.
 pub(super) fn run(arguments: &Print) -> Outcome {
+    if arguments.svg {
+        return write_out(&screen_as_svg(arguments)?);
+    }
     let text = text(arguments)?;
     match arguments.pixel {
         None => write_picture(&text),
         Some(_) => write_out(&text),
     }
+}
+
+/// The screen of an explorer that opens at what is asked for.
+fn screen_as_svg(arguments: &Print) -> Result<String, Failure> {
+    let (scene, source) = Scene::open(&arguments.scene).map_err(Failure::invalid)?;
+    let style = arguments.style.unwrap_or(Style::Half);
+    view_in(style, arguments.view).map_err(Failure::misused)?;
+    let palette = arguments.theme.unwrap_or_default();
+    let options = Options {
+        aspect: arguments.aspect,
+        depth: match arguments.color.color {
+            ColorChoice::Auto => ColorDepth::True,
+            choice => choice.over(Capability::of_output()).depth,
+        },
+        palette,
+        ..Options::default()
+    };
+    let wanted = arguments.size.or(scene.pixels);
+    let (cols, rows) = explorer::screen_for(wanted.map(|size| style.cells_of(size)));
+    let mut settings = vec![Setting::Style(style), Setting::Method(arguments.method)];
+    settings.extend(arguments.view.map(Setting::View));
+    settings.extend(arguments.pixel.map(|(x, y)| Setting::Cursor(x, y)));
+    if arguments.steps {
+        settings.push(Setting::Panel(Panel::Steps));
+    }
+    let title = format!("rayscope: {}", scene.name);
+    let mut explorer = Explorer::new(scene, &source, options);
+    explorer.set_out(&settings).map_err(Failure::misused)?;
+    let mut buffer = Buffer::empty(Rect::new(0, 0, cols, rows));
+    explorer.prepare(cols, rows);
+    explorer.draw(&mut buffer);
+    Ok(explorer::svg(&buffer, palette, &title))
 }
 
 /// What is asked for.

@@ -1,6 +1,6 @@
 //! Everything a person can do by one key or by the menu, in one table.
 //!
-//! The table feeds the dispatch of keys, the menu, the footer, the help page, the names of the command
+//! The table feeds the dispatch of keys, the menu, the help page, the names of the command
 //! line and the keys section of the guide.
 
 use crate::explorer::key::Key;
@@ -326,7 +326,7 @@ actions! {
     StepFiner "finer" ["["] Spheres '[' "step length";
     /// make the pixel under the cursor tangent: the radius for which Δ = 0
     MakeTangent "make-tangent" ["T"] Spheres 'T' "make tangent";
-    /// add a sphere in front of the camera
+    /// add a sphere under the cursor, in front of what it points at
     Add "add" ["i"] Spheres 'a' "add sphere";
     /// duplicate the selected sphere
     Duplicate "duplicate" [] Spheres 'd' "duplicate";
@@ -432,29 +432,6 @@ impl Action {
             .find(|a| a.keys().iter().any(|k| Key::parse(k) == Some(key)))
     }
 }
-
-/// What the footer says: keys and a word, the most useful first.
-pub const FOOTER: &[(&str, &str)] = &[
-    ("space", "menu"),
-    ("arrows", "cursor"),
-    ("wasd", "camera"),
-    ("tab", "sphere"),
-    ("enter", "steps"),
-    ("v", "view"),
-    ("m", "method"),
-    ("f", "tour"),
-    (":", "command"),
-    ("?", "help"),
-    ("q", "quit"),
-    ("1-9", "panels"),
-    ("xyz", "move"),
-    ("g", "grow"),
-    ("t", "tangent"),
-    ("n", "next on line"),
-    ("*", "landmark"),
-    ("u", "undo"),
-    ("=", "numbers"),
-];
 
 /// The keys section of the guide, in Markdown.
 pub fn markdown() -> String {

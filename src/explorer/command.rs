@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crate::explorer::action::Action;
 use crate::explorer::files::workplace::Workplace;
+use crate::explorer::link::Link;
 use crate::explorer::panel::Panel;
 use crate::explorer::setting::{self, SETTINGS, Setting, SettingRow, one_of};
 use crate::explorer::tour::chapter as tour;
@@ -13,7 +14,7 @@ use crate::text::{former_names, nearest};
 
 /// A line that was understood.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Command {
+pub(crate) enum Command {
     /// An action, as by its key.
     Do(Action),
     /// Quit without asking.
@@ -32,6 +33,10 @@ pub enum Command {
     TourNow,
     /// Open a file or a built-in scene.
     Open(String),
+    /// Go where a pasted command leads.
+    Go(Link),
+    /// The same, although there are unsaved changes.
+    GoNow(Link),
     /// Save under this name.
     SaveAs(String),
     /// Give a setting a value.
@@ -101,6 +106,7 @@ impl Command {
             "q" | "quit" if rest.is_empty() => Ok(Self::Do(Action::Quit)),
             "q!" | "quit!" if rest.is_empty() => Ok(Self::QuitNow),
             "w" if rest.is_empty() => Ok(Self::Do(Action::Save)),
+            "rayscope" => Link::parse(line.trim()).map(Self::Go),
             "open" => argument(rest, "open", "a file or a built-in scene").map(Self::Open),
             "save-as" | "save" | "w" => argument(rest, name, "a file name").map(Self::SaveAs),
             "copy" => choice(rest, "copy", &CaseForm::ALL, CaseForm::name).map(Self::Copy),

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use crate::explorer::link::Link;
 use crate::lab::CaseForm;
 
 /// Something that opens over the screen and hears the keys first.
@@ -55,6 +56,7 @@ impl Purpose {
 pub(crate) enum Confirmation {
     Quit,
     Open(String),
+    Go(Link),
     Recover { path: PathBuf, age: Duration },
     Tour,
     Overwrite { path: PathBuf, why: &'static str },
@@ -70,6 +72,7 @@ impl Confirmation {
             Self::Open(name) => {
                 format!("Unsaved changes.  o open {name} without saving   esc stay")
             }
+            Self::Go(_) => "Unsaved changes.  o open the pasted view without saving   esc stay".into(),
             Self::Recover { age, .. } => format!(
                 "Unsaved work of {} ago was kept.  o open it   D delete it   esc later",
                 in_words(*age)

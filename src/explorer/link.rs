@@ -5,12 +5,12 @@ use crate::explorer::edit::field::{self, NumberField};
 use crate::explorer::files::place::FilePlace;
 use crate::explorer::options::{Options, Request};
 use crate::explorer::panel::Panel;
-use crate::explorer::setting::SETTINGS;
+use crate::explorer::setting::{self, SETTINGS, Setting, SettingRow};
 use crate::explorer::state::State;
 use crate::explorer::viewpoint::Viewpoint;
 use crate::explorer::walk;
 use crate::geometry::Decimal;
-use crate::scene::Scene;
+use crate::scene::{Builtin, Scene};
 
 /// Shows the command that reopens this view, and asks for it to be copied; on a page of the tour,
 /// `page` opens it.
@@ -155,6 +155,79 @@ fn quoted(word: &str) -> String {
         word.to_owned()
     } else {
         format!("'{}'", word.replace('\'', r"'\''"))
+    }
+}
+
+/// Where a command that was passed on leads.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Link {
+    pub(crate) place: LinkPlace,
+    pub(crate) settings: Vec<Setting>,
+}
+
+/// What a link opens.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum LinkPlace {
+    /// A file or a built-in scene.
+    Scene(String),
+    /// A page of a chapter that comes with the program, counted from 1.
+    Page(String, usize),
+}
+
+impl Link {
+    /// The page that it opens, if it opens one.
+    pub(crate) fn page(&self) -> Option<usize> {
+        match self.place {
+            LinkPlace::Scene(_) => None,
+            LinkPlace::Page(_, page) => Some(page),
+        }
+    }
+
+    /// Understands `rayscope …`, as [`command_line`] writes it, or says in a sentence why not.
+    pub(crate) fn parse(line: &str) -> Result<Self, String> {
+        let words = shell_words::split(line)
+            .map_err(|_| "rayscope: found a quote without its end, expected a whole command")?;
+        let mut words = words.into_iter().skip(1).peekable();
+        let is_tour = words.next_if(|word| word == "tour").is_some();
+        let (mut names, mut settings, mut page) = (Vec::new(), Vec::new(), 1);
+        while let Some(word) = words.next() {
+            let Some(flag) = word.strip_prefix("--") else {
+                names.push(word);
+                continue;
+            };
+            let (flag, value) = match flag.split_once('=') {
+                Some((flag, value)) => (flag.to_owned(), Some(value.to_owned())),
+                None => (flag.to_owned(), words.next()),
+            };
+            let value =
+                value.ok_or_else(|| format!("rayscope: expected a value after --{flag}"))?;
+            if is_tour && flag == "page" {
+                page = value
+                    .parse()
+                    .map_err(|_| format!("--page {value}: expected a page's number"))?;
+                continue;
+            }
+            let row = SettingRow::by_name(&flag).filter(|row| row.flag.is_some());
+            let row = row.ok_or_else(|| {
+                format!("rayscope: --{flag} is no flag of a view, which a pasted command opens")
+            })?;
+            settings.push(setting::parse(row, &value)?);
+        }
+        let name = match &names[..] {
+            [] => Builtin::default().name().to_owned(),
+            [name] => name.clone(),
+            [_, second, ..] => {
+                return Err(format!(
+                    "rayscope: found “{second}”, expected one scene and flags of a view"
+                ));
+            }
+        };
+        let place = match (is_tour, names.is_empty()) {
+            (false, _) => LinkPlace::Scene(name),
+            (true, true) => LinkPlace::Page("1".into(), page),
+            (true, false) => LinkPlace::Page(name, page),
+        };
+        Ok(Self { place, settings })
     }
 }
 

@@ -32,6 +32,8 @@ mod viewpoint;
 mod walk;
 mod whole;
 
+pub use draw::layout::screen_for;
+pub use draw::svg::svg;
 pub use draw::theme::Palette;
 pub use edit::motion::usual_step;
 pub use files::workplace::Workplace;

@@ -9,6 +9,7 @@ use crate::explain::{self, Digits, Line, Reading, StepLook, Subject};
 use crate::explorer::action::{Action, Group};
 use crate::explorer::command::{self, Command, with_argument};
 use crate::explorer::dialog::{Confirmation, Purpose};
+use crate::explorer::draw::layout::USUAL;
 use crate::explorer::files::keep;
 use crate::explorer::key::Key;
 use crate::explorer::mode::form::numbers;
@@ -18,7 +19,7 @@ use crate::explorer::panel::{Panel, steps};
 use crate::explorer::setting::SETTINGS;
 use crate::explorer::viewpoint::Viewpoint;
 use crate::explorer::walk;
-use crate::explorer::whole::{Explorer, USUAL_SCREEN};
+use crate::explorer::whole::Explorer;
 use crate::method::{Class, Precision};
 use crate::text::printable;
 
@@ -156,7 +157,7 @@ impl Explorer {
     }
 
     fn look(&mut self) {
-        let (cols, rows) = USUAL_SCREEN;
+        let (cols, rows) = USUAL;
         self.prepare(cols, rows);
     }
 

@@ -13,7 +13,7 @@ use crate::explain::Reading;
 use crate::explorer::action::{Action, Group};
 use crate::explorer::command::Command;
 use crate::explorer::dialog::{Confirmation, Dialog, Purpose};
-use crate::explorer::draw::layout::Layout;
+use crate::explorer::draw::layout::{Layout, USUAL};
 use crate::explorer::draw::pen::Pen;
 use crate::explorer::draw::screen::WholeScreen;
 use crate::explorer::draw::theme::Theme;
@@ -23,7 +23,7 @@ use crate::explorer::files::place::FilePlace;
 use crate::explorer::files::workplace::Workplace;
 use crate::explorer::files::{keep, saving};
 use crate::explorer::key::Key;
-use crate::explorer::link;
+use crate::explorer::link::{self, Link, LinkPlace};
 use crate::explorer::mode::overlay::After;
 use crate::explorer::mode::{Mode, export_case};
 use crate::explorer::options::{Options, Request};
@@ -61,9 +61,6 @@ const PARTS: [fn(Action, &mut State) -> bool; 6] = [
 
 /// How many lines a turn of the mouse's wheel scrolls.
 const WHEEL: isize = 3;
-
-/// The screen that is drawn for where there is none, in columns and rows.
-pub(crate) const USUAL_SCREEN: (u16, u16) = (80, 24);
 
 // What there is to know of it from outside.
 impl Explorer {
@@ -311,7 +308,7 @@ impl Explorer {
     ///
     /// Meant for an explorer that is then thrown away: the cursor stays where that screen has it.
     pub fn rehearse(mut self) -> Result<(), String> {
-        let (cols, rows) = USUAL_SCREEN;
+        let (cols, rows) = USUAL;
         self.arrange(cols, rows);
         match self.state.message {
             Some(message) if message.warning => Err(message.text),
@@ -475,6 +472,10 @@ impl Explorer {
                 Err(sentence) => state.warn(sentence),
             },
             Command::Open(name) | Command::OpenNow(name) => self.open(&name),
+            Command::Go(link) if state.is_worth_saving() && link.page().is_none() => {
+                state.ask(Confirmation::Go(link));
+            }
+            Command::Go(link) | Command::GoNow(link) => self.follow(&link),
             Command::SaveAs(name) => saving::save_as_named(state, &name),
             Command::Overwrite(path) => saving::write(state, &path, Over::Anything),
             Command::Recover(path) => keep::recover(state, &path),
@@ -502,6 +503,18 @@ impl Explorer {
                 self.modes.clear();
             }
             Err(sentence) => self.state.warn(sentence),
+        }
+    }
+
+    /// Goes where a pasted command leads; the person's own scene waits behind a page of the tour.
+    fn follow(&mut self, link: &Link) {
+        match &link.place {
+            LinkPlace::Scene(name) => self.open(name),
+            LinkPlace::Page(chapter, page) => self.tour.open_page(&mut self.state, chapter, *page),
+        }
+        let is_there = !self.state.message.as_ref().is_some_and(|said| said.warning);
+        if is_there && let Err(sentence) = set::set_out(&mut self.state, &link.settings) {
+            self.state.warn(sentence);
         }
     }
 

@@ -96,6 +96,23 @@ impl ColorDepth {
 /// The channel values of xterm's 6 × 6 × 6 colour cube.
 pub(super) const CUBE: [u8; 6] = [0, 95, 135, 175, 215, 255];
 
+/// What xterm shows for one of its 256 colours.
+pub fn xterm(index: u8) -> Rgb {
+    match index {
+        0 => Rgb(0, 0, 0),
+        1..=15 => BASIC[usize::from(index) - 1],
+        16..=231 => {
+            let n = usize::from(index) - 16;
+            let [r, g, b] = [n / 36, n / 6 % 6, n % 6].map(|step| CUBE[step]);
+            Rgb(r, g, b)
+        }
+        232.. => {
+            let grey = 8 + 10 * (index - 232);
+            Rgb(grey, grey, grey)
+        }
+    }
+}
+
 fn nearest_of_256(Rgb(r, g, b): Rgb) -> u8 {
     let step = |v: u8| {
         let by_distance = |i: &usize| CUBE[*i].abs_diff(v);

@@ -32,7 +32,7 @@ mod view;
 mod windows;
 
 pub use allowance::Allowance;
-pub use color::{AnsiColor, ColorDepth, color_of};
+pub use color::{AnsiColor, ColorDepth, color_of, xterm};
 pub use frame::{Frame, Hit, Lost};
 pub use image::{Cell, Image};
 pub use ink::RAMP;

@@ -100,6 +100,28 @@ impl Layout {
     }
 }
 
+/// The smallest screen, no less than the usual one, that shows a picture of that many columns and rows
+/// whole beside the panel.
+pub fn screen_for(picture: Option<(u32, u32)>) -> (u16, u16) {
+    let Some((cols, rows)) = picture else {
+        return USUAL;
+    };
+    let most = |n: u32| u16::try_from(n).unwrap_or(u16::MAX).min(MOST);
+    let (cols, rows) = (most(cols), most(rows));
+    let height = USUAL.1.max(rows + BORDER + 2);
+    let shows = |width: &u16| {
+        let layout = Layout::of(Rect::new(0, 0, *width, height), None);
+        layout.is_some_and(|layout| inner(layout.view).width >= cols)
+    };
+    let width = (USUAL.0..=MOST + PANEL.1 + BORDER).find(shows);
+    (width.unwrap_or(MOST), height)
+}
+
+/// The usual screen, in columns and rows, which is drawn for where there is none.
+pub const USUAL: (u16, u16) = (80, 24);
+/// The most columns or rows of a picture that a screen is made for.
+const MOST: u16 = 400;
+
 fn split_columns(area: Rect, left: u16) -> (Rect, Rect) {
     let right = Rect::new(area.x + left, area.y, area.width - left, area.height);
     (

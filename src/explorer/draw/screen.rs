@@ -4,11 +4,10 @@ use ratatui::layout::{Position, Rect};
 use ratatui::style::Style as CellStyle;
 use unicode_width::UnicodeWidthStr;
 
-use crate::explorer::action::FOOTER;
 use crate::explorer::draw::layout::{LEAST, Layout};
 use crate::explorer::draw::pen::Pen;
 use crate::explorer::draw::theme::Theme;
-use crate::explorer::draw::{panels, view};
+use crate::explorer::draw::{footer, panels, view};
 use crate::explorer::mode::overlay::{ModeArea, Overlay};
 use crate::explorer::panel::all::Panels;
 use crate::explorer::panel::board;
@@ -91,7 +90,8 @@ impl WholeScreen<'_> {
         }
         let keys = self.mode.map(Overlay::foot).filter(|keys| !keys.is_empty());
         let mut x = area.x + 1;
-        for (key, word) in keys.unwrap_or(FOOTER) {
+        let keys = keys.map_or_else(|| footer::keys(self.state), <[_]>::to_vec);
+        for (key, word) in keys {
             let width = (key.len() + word.len() + 1) as u16;
             if x + width >= area.right() {
                 break;

@@ -1,7 +1,7 @@
 //! The picture in its border, with the cursor's marks; or the numbers in one line.
 
 use ratatui::layout::{Position, Rect};
-use ratatui::style::{Color, Style as CellStyle};
+use ratatui::style::{Color, Modifier, Style as CellStyle};
 use unicode_width::UnicodeWidthStr;
 
 use crate::explain::{self, Digits, number};
@@ -11,6 +11,7 @@ use crate::explorer::state::State;
 use crate::explorer::walk;
 use crate::method::{Place, Precision};
 use crate::render::{Cell, Style};
+use crate::scene::Rgb;
 use crate::text::Glyphs;
 
 /// What a cell shows while what it tells is to be predicted.
@@ -90,6 +91,9 @@ pub(crate) fn draw(
     pen.border_text(area, area.y, &title, at.map(|at| at.x));
     if let Some(at) = at {
         mark_cursor(state, pen, area, at);
+        if !wrong.contains(&(col, row)) {
+            mark_pixel(state, veiled, pen, at);
+        }
     }
     at
 }
@@ -156,6 +160,48 @@ fn mark_cursor(state: &State, pen: &mut Pen<'_>, area: Rect, at: Position) {
     };
     pen.text(at.x, area.y, 1, "▾", style);
     pen.text(area.x, at.y, 1, side, style);
+}
+
+/// Marks the cursor's pixel in its cell: where two pixels share it, by a half disc on its half.
+fn mark_pixel(state: &State, veiled: bool, pen: &mut Pen<'_>, at: Position) {
+    let cell = &mut pen.buffer[at];
+    if state.at.style != Style::Half || pen.glyphs == Glyphs::Ascii {
+        if state.at.style != Style::Braille {
+            cell.modifier.insert(Modifier::REVERSED);
+        }
+        return;
+    }
+    let is_upper = state.at.cursor.1.is_multiple_of(2);
+    let (col, row) = state
+        .at
+        .style
+        .cell_of_pixel(state.at.cursor.0, state.at.cursor.1);
+    let shown = state.picture.image.cell(col, row).filter(|_| !veiled);
+    // The colour of a half: the block's own, or what is behind it.
+    let colors = shown.map_or([None; 2], |cell| match cell.glyph {
+        '▀' => [cell.fg, cell.bg],
+        '▄' => [cell.bg, cell.fg],
+        '█' => [cell.fg; 2],
+        _ => [cell.bg; 2],
+    });
+    let [upper, lower] = colors;
+    let color = if is_upper { upper } else { lower };
+    let style = match pen.theme.color(color) {
+        Color::Reset => pen.theme.mark(),
+        ground if is_dark(color) => CellStyle::new().fg(Color::White).bg(ground),
+        ground => CellStyle::new().fg(Color::Black).bg(ground),
+    };
+    cell.reset();
+    cell.set_char(if is_upper { '◓' } else { '◒' })
+        .set_style(style);
+}
+
+/// Whether white stands out from a colour better than black does.
+fn is_dark(color: Option<Rgb>) -> bool {
+    color.is_none_or(|Rgb(r, g, b)| {
+        let [r, g, b] = [r, g, b].map(u32::from);
+        2 * r + 5 * g + b < 8 * 110
+    })
 }
 
 /// A, B, C, Δ and what is seen, in one line.

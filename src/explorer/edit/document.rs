@@ -22,6 +22,51 @@ pub enum Change {
     Difference(Box<Difference>),
 }
 
+/// Whether a change does a deed or takes it back.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Way {
+    Forth,
+    Back,
+}
+
+impl Change {
+    /// What the change does to `scene`, or what was done that it takes back.
+    fn deed(&self, scene: &Scene, way: Way) -> String {
+        let sphere = |at: &usize, deed: &str| format!("sphere {} was {deed}", at + 1);
+        match (self, way) {
+            (Self::Camera(camera), _) if camera.projection == scene.camera.projection => {
+                "the camera was moved".into()
+            }
+            (Self::Camera(_), _) => "the view was made wider or narrower".into(),
+            (Self::Replace(at, body), _) => {
+                let now = scene.bodies.get(*at).unwrap_or(body);
+                let (before, after) = match way {
+                    Way::Forth => (now, body),
+                    Way::Back => (body, now),
+                };
+                let [old, new] = [before, after].map(|body| body.sphere);
+                let deed = if old.center != new.center {
+                    "moved"
+                } else if old.radius < new.radius {
+                    "made larger"
+                } else if old.radius > new.radius {
+                    "made smaller"
+                } else {
+                    "changed"
+                };
+                sphere(at, deed)
+            }
+            (Self::Insert(at, _), Way::Forth) | (Self::Remove(at), Way::Back) => {
+                sphere(at, "added")
+            }
+            (Self::Insert(at, _), Way::Back) | (Self::Remove(at), Way::Forth) => {
+                sphere(at, "deleted")
+            }
+            (Self::Scene(_) | Self::Difference(_), _) => "the scene was another one".into(),
+        }
+    }
+}
+
 /// What makes another scene of a scene, without the spheres that they share.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Difference {
@@ -237,6 +282,24 @@ impl Document {
         let inverse = self.go(entry);
         self.future.extend(inverse);
         true
+    }
+
+    /// What [`Document::undo`] takes back, in a few words.
+    pub fn undoes(&self) -> Option<String> {
+        let entry = self.past.last()?;
+        Some(match self.state.turn {
+            Some(_) => "the dial was turned".into(),
+            None => entry.change.deed(&self.scene, Way::Back),
+        })
+    }
+
+    /// What [`Document::redo`] does again, in a few words.
+    pub fn redoes(&self) -> Option<String> {
+        let entry = self.future.last()?;
+        Some(match entry.state.turn {
+            Some(_) => "the dial was turned".into(),
+            None => entry.change.deed(&self.scene, Way::Forth),
+        })
     }
 
     /// Whether there is nothing to undo.

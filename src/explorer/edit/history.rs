@@ -12,22 +12,28 @@ pub(crate) fn act(action: Action, state: &mut State) -> bool {
         Action::Undo => {
             let nothing = state.work.document.is_as_opened();
             if !(nothing && keep::bring_back_discarded(state)) {
-                travel(state, Document::undo, "Nothing to undo.");
+                let deed = state.work.document.undoes();
+                let deed = deed.map(|deed| format!("Taken back: {deed}."));
+                travel(state, Document::undo, deed, "Nothing to undo.");
             }
         }
-        Action::Redo => travel(state, Document::redo, "Nothing to redo."),
+        Action::Redo => {
+            let deed = state.work.document.redoes();
+            let deed = deed.map(|deed| format!("Done again: {deed}."));
+            travel(state, Document::redo, deed, "Nothing to redo.");
+        }
         Action::Reset => reset(state),
         _ => return false,
     }
     true
 }
 
-fn travel(state: &mut State, go: fn(&mut Document) -> bool, nothing: &str) {
+/// Goes one way in the history, and says what that did.
+fn travel(state: &mut State, go: fn(&mut Document) -> bool, deed: Option<String>, nothing: &str) {
     if go(&mut state.work.document) {
         spheres::mend_selection(state);
-    } else {
-        state.say(nothing);
     }
+    state.say(deed.unwrap_or_else(|| nothing.to_owned()));
 }
 
 fn reset(state: &mut State) {

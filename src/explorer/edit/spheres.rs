@@ -1,6 +1,6 @@
 //! What a person does to spheres: select, move, grow, add, delete, make tangent.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use crate::explain::{Digits, number};
 use crate::explorer::action::Action;
@@ -9,9 +9,9 @@ use crate::explorer::dialog::Dialog;
 use crate::explorer::edit::document::Change;
 use crate::explorer::edit::motion;
 use crate::explorer::state::State;
-use crate::geometry::{Decimal, Sphere};
+use crate::geometry::{Decimal, Invalid, Sphere};
 use crate::method::{Class, Method, Precision};
-use crate::scene::Body;
+use crate::scene::{Body, Projection};
 
 /// The radius of a new sphere as a part of what the camera sees.
 const NEW_RADIUS: f64 = 1.0 / 8.0;
@@ -148,20 +148,48 @@ fn grow(state: &mut State, steps: f32) {
     }
 }
 
+/// Adds a sphere on the ray under the cursor, in front of what that hits: it is seen there.
 fn add_sphere(state: &mut State) {
-    let camera = state.scene().camera;
-    let radius = (motion::window(&camera) * NEW_RADIUS) as f32;
-    match Sphere::new(camera.look_at, radius) {
+    match new_sphere(state) {
         Ok(sphere) => {
             let body = Body {
                 sphere,
                 name: None,
                 color: None,
             };
-            insert(state, body, "added where the camera looks");
+            insert(state, body, "is added under the cursor and selected");
         }
         Err(refused) => state.warn(refused.to_string()),
     }
+}
+
+fn new_sphere(state: &State) -> Result<Sphere, Invalid> {
+    let (scene, (x, y)) = (state.scene(), state.at.cursor);
+    let camera = &scene.camera;
+    let ray = state.picture.rays.ray(x, y);
+    let [origin, direction] = [ray.origin, ray.direction].map(Vec3::as_dvec3);
+    let far = (camera.look_at - camera.position).as_dvec3().length();
+    let hit = state.picture.frame.hit(scene, x, y);
+    let hit = hit.map(|hit| f64::from(hit.t) * direction.length());
+    let room = hit.filter(|way| way.is_finite());
+    let usual = NEW_RADIUS * motion::window(camera);
+    // Half way to what is hit, or where the camera looks.
+    let (radius, way) = match (room, camera.projection) {
+        (Some(room), Projection::Orthographic { .. }) => (usual.min(room / 4.0), room / 2.0),
+        (Some(room), Projection::Perspective { .. }) => {
+            ((usual * room / (2.0 * far)).min(room / 4.0), room / 2.0)
+        }
+        (None, _) => (usual, far),
+    };
+    let center = origin + direction.normalize_or_zero() * way;
+    let grid = f64::from(state.work.usual_stride);
+    // On the grid of the keys, numbers stay short; what is smaller than that keeps its own.
+    if radius >= 2.0 * grid {
+        let round = |x: f64| (x / grid).round() * grid;
+        let center = DVec3::from_array(center.to_array().map(round));
+        return Sphere::new(center.as_vec3(), ((radius / grid).floor() * grid) as f32);
+    }
+    Sphere::new(center.as_vec3(), radius as f32)
 }
 
 fn duplicate_sphere(state: &mut State) {
@@ -171,7 +199,7 @@ fn duplicate_sphere(state: &mut State) {
         match Sphere::new(body.sphere.center, body.sphere.radius) {
             Ok(sphere) => {
                 body.sphere = sphere;
-                insert(state, body, "added, one step along +x");
+                insert(state, body, "is added, one step along +x");
             }
             Err(refused) => state.warn(refused.to_string()),
         }

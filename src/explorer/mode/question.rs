@@ -25,7 +25,7 @@ impl Confirmation {
     fn loses_by(&self, key: Key) -> bool {
         match self {
             Self::Quit | Self::Recover { .. } => key.is("D"),
-            Self::Open(_) | Self::Overwrite { .. } => key.is("o"),
+            Self::Open(_) | Self::Go(_) | Self::Overwrite { .. } => key.is("o"),
             Self::Tour => false,
         }
     }
@@ -40,6 +40,7 @@ impl Overlay for Asking {
             // Another key than the one that asked: it may be held down.
             Confirmation::Quit if key.is("D") => After::Do(Command::QuitNow),
             Confirmation::Open(name) if key.is("o") => After::Do(Command::OpenNow(name.clone())),
+            Confirmation::Go(link) if key.is("o") => After::Do(Command::GoNow(link.clone())),
             Confirmation::Recover { path, .. } if key.is("o") => {
                 After::Do(Command::Recover(path.clone()))
             }

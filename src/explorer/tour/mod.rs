@@ -247,6 +247,21 @@ impl Tour {
         ));
     }
 
+    /// Opens a page, counted from 1, of the chapter of that name or number, or says what is wrong.
+    pub(crate) fn open_page(&mut self, state: &mut State, chapter: &str, page: usize) {
+        let at = self.bookmark();
+        let found = find(&at.chapters, chapter).and_then(|chapter| at.in_chapter(chapter));
+        let pages = found
+            .as_ref()
+            .and_then(Bookmark::chapter)
+            .map_or(0, |chapter| chapter.pages.len());
+        match found {
+            Some(at) if (1..=pages).contains(&page) => self.turn_to(state, at.on_page(page - 1)),
+            Some(_) => state.warn(format!("--page {page}: expected a page from 1 to {pages}")),
+            None => self.open_chapter(state, chapter),
+        }
+    }
+
     fn bookmark(&self) -> Bookmark {
         let open = self.open.as_ref().map(|tour| tour.at.clone());
         open.or_else(|| self.put_away.clone())
