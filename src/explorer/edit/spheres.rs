@@ -169,8 +169,9 @@ fn new_sphere(state: &State) -> Result<Sphere, Invalid> {
     let ray = state.picture.rays.ray(x, y);
     let [origin, direction] = [ray.origin, ray.direction].map(Vec3::as_dvec3);
     let far = (camera.look_at - camera.position).as_dvec3().length();
-    let hit = state.picture.frame.hit(scene, x, y);
-    let hit = hit.map(|hit| f64::from(hit.t) * direction.length());
+    let first = state.reading().and_then(|reading| reading.meetings.first());
+    let hit = first.and_then(|first| first.solution.visible());
+    let hit = hit.map(|t| f64::from(t) * direction.length());
     let room = hit.filter(|way| way.is_finite());
     let usual = NEW_RADIUS * motion::window(camera);
     // Half way to what is hit, or where the camera looks.
