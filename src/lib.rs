@@ -10,6 +10,7 @@
 //! * [`report`]: what a run found, in sentences and tables, in each format
 //! * [`door`]: files from outside, opened and read safely
 //! * [`geometry`]: rays and spheres, plain data, checked where it comes in
+//! * `routine`: one's own way to evaluate it, in GLSL or WGSL, checked and run
 //! * [`method`]: the quadratic, and the ways to evaluate it
 //! * [`scene`]: spheres, camera, light; scene files; the built-in scenes
 //! * [`render`]: rays → nearest hits → shade → glyphs: an image of cells
@@ -30,6 +31,8 @@ pub mod number;
 pub mod random;
 pub mod render;
 pub mod report;
+#[cfg(feature = "routine")]
+pub mod routine;
 pub mod scene;
 pub mod system;
 pub mod terminal;

@@ -200,7 +200,7 @@ fn roots_are_as_good_as_is_stated() {
                     let sensitivity = sensitivity(&truth, &root, lengths(&ray, &sphere));
                     let ulps = ulp_error(t, &root);
                     let bound = match method {
-                        Method::Exact => 0.5,
+                        Method::Exact | Method::Routine(_) => 0.5,
                         // A relative error of 2⁻⁵³ is at most 2⁻²⁹ of an ulp of binary32.
                         Method::Double => 0.5 + 14.0 * sensitivity / 536_870_912.0,
                         // One of u is at most one ulp; beyond 2⁻¹⁰ the first order is not all.
@@ -264,7 +264,7 @@ fn classes_are_as_good_as_is_stated() {
                         let u = f64::EPSILON / 2.0;
                         32.0 * u * (r * (o + r) + 32.0 * u * o * o)
                     }
-                    Method::Exact => 0.0,
+                    Method::Exact | Method::Routine(_) => 0.0,
                 };
                 if height < bound {
                     continue;
@@ -450,7 +450,7 @@ fn a_trace_is_the_plain_run_in_every_family() {
                 let k = method.coefficients(&ray, &sphere);
                 let last = match method {
                     Method::Textbook | Method::Contracted => step("Δ").unwrap().value,
-                    Method::Exact => continue,
+                    Method::Exact | Method::Routine(_) => continue,
                     Method::Double => 4.0 * step("D").unwrap().value,
                     _ => f64::from(4.0 * step("D").unwrap().value as f32),
                 };

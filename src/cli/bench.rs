@@ -15,6 +15,7 @@ use crate::lab::bench::{self, BenchPlan, Benchmark, MOST_TIMED, Sample};
 use crate::lab::frames::{self, FrameSchedule};
 use crate::lab::timing::{Schedule, SelfCheck, SystemClock};
 use crate::lab::{BenchLock, BenchQueue, Family, Machine, plot};
+use crate::method::Method;
 use crate::render::{CELL_ASPECT, Style, fit};
 use crate::report::Format;
 use crate::scene::{Rays, Scene};
@@ -71,11 +72,12 @@ pub(super) fn run(arguments: &BenchArgs) -> Outcome {
         ));
     }
     let samples = samples(arguments)?;
+    let methods = arguments.sweep.methods()?;
     let mut progress = Progress::new("bench", samples.len())?;
     let length = length_of(arguments, samples.len());
     let lock = right_to_measure(length, &progress);
     let mut measured = bench::run(
-        plan(arguments),
+        plan(arguments, &methods),
         &samples,
         arguments.sweep.seed,
         &SystemClock::new(),
@@ -124,8 +126,8 @@ fn right_to_measure(length: Duration, progress: &Progress) -> io::Result<Option<
 /// Measures whole frames instead of single rays.
 fn run_frames(arguments: &BenchArgs) -> Outcome {
     let mut schedule = FrameSchedule::new(arguments.sweep.quick, arguments.sweep.seed);
-    if let Some(methods) = arguments.sweep.named() {
-        schedule.methods = methods.into();
+    if let Some(methods) = arguments.sweep.named()? {
+        schedule.methods = methods;
     }
     if !arguments.counts.is_empty() {
         schedule.counts = arguments.counts.iter().map(|&n| n as usize).collect();
@@ -156,9 +158,9 @@ fn run_frames(arguments: &BenchArgs) -> Outcome {
     })
 }
 
-fn plan(arguments: &BenchArgs) -> BenchPlan<'_> {
+fn plan<'a>(arguments: &BenchArgs, methods: &'a [Method]) -> BenchPlan<'a> {
     BenchPlan {
-        methods: arguments.sweep.methods(),
+        methods,
         schedule: Schedule {
             rounds: if arguments.sweep.quick { 15 } else { 101 },
             seed: arguments.sweep.seed,

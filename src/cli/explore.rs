@@ -51,7 +51,9 @@ pub(super) fn opened(
         options.glyphs,
     ))];
     settings.extend_from_slice(&arguments.place.settings);
-    let explorer = set_out(&settings, || Explorer::new(scene.clone(), &source, options))?;
+    let explorer = set_out(&settings, || {
+        Explorer::new(scene.clone(), &source, options).finding_files_in(workplace())
+    })?;
     Ok((explorer, source))
 }
 

@@ -22,13 +22,17 @@ mod variables;
 mod worksheet;
 
 use std::borrow::Cow;
+use std::ffi::OsStr;
 use std::fmt;
 use std::io::{self, Write as _};
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{Arg, Command, CommandFactory, FromArgMatches, Parser, Subcommand};
 
+use crate::door;
+use crate::method::Method;
 use crate::text::{by_name, former_names, printable, read};
 use failure::{DONE, Failure, Outcome};
 use output::{complain, save, unwritable, write_out, write_picture};
@@ -123,6 +127,57 @@ fn choice<T: Copy + Send + Sync + 'static>(
     let values = names.map(|name| PossibleValue::new(name).aliases(former_names(name)));
     PossibleValuesParser::new(values)
         .try_map(move |given| by_name(all.iter().copied(), name, &given).ok_or("no such name"))
+}
+
+/// A method as it is named: built in, or the file of a routine, which is read when it is asked for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct MethodName(String);
+
+impl MethodName {
+    /// The method; a file is read now.
+    fn method(&self) -> Result<Method, Failure> {
+        match Method::by_name(&self.0) {
+            Some(method) => Ok(method),
+            None => {
+                Method::load(&self.0, Path::new(&door::typed(&self.0))).map_err(Failure::invalid)
+            }
+        }
+    }
+}
+
+/// Reads a built-in method by its name, or takes the name of a file.
+#[derive(Clone)]
+struct MethodParser;
+
+fn method_name() -> MethodParser {
+    MethodParser
+}
+
+impl TypedValueParser for MethodParser {
+    type Value = MethodName;
+
+    fn parse_ref(
+        &self,
+        command: &Command,
+        arg: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<MethodName, clap::Error> {
+        match value.to_str() {
+            Some(name) if Method::is_file(name) => Ok(MethodName(name.to_owned())),
+            _ => {
+                let builtin = choice(&Method::ALL, Method::name).parse_ref(command, arg, value)?;
+                Ok(MethodName(builtin.name().to_owned()))
+            }
+        }
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let values: Vec<_> = Method::ALL
+            .iter()
+            .map(|m| PossibleValue::new(m.name()))
+            .collect();
+        Some(Box::new(values.into_iter()))
+    }
 }
 
 /// Reads how many times as high as wide a cell is.

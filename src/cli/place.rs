@@ -3,6 +3,7 @@
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser, ValueParser};
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, FromArgMatches};
 
+use super::method_name;
 use crate::explorer::{SETTINGS, Setting, SettingRow};
 use crate::method::Method;
 use crate::text::former_names;
@@ -48,7 +49,9 @@ fn with_variable(arg: Arg, name: &'static str) -> Arg {
 fn flag(row: &'static SettingRow, say: impl FnOnce(&str) -> String) -> Option<Arg> {
     let (value, help) = row.flag?;
     let names = (row.choices)();
-    let parser = if names.is_empty() || row.name == "set" {
+    let parser = if ["method", "compare"].contains(&row.name) {
+        ValueParser::new(method_name().try_map(|name| row.parse(&name.0)))
+    } else if names.is_empty() || row.name == "set" {
         ValueParser::new(|text: &str| row.parse(text))
     } else {
         let values = names.into_iter().map(|name| {

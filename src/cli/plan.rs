@@ -7,7 +7,7 @@ use clap::Args;
 use super::print::{fit_in, size, view_in};
 use super::progress::Progress;
 use super::unseen::UnseenTerminal;
-use super::{Failure, Outcome, aspect, choice, from_one, write_out};
+use super::{Failure, MethodName, Outcome, aspect, choice, from_one, method_name, write_out};
 use crate::explain::{self, FramePlan, PlanLine, Plans};
 use crate::explorer::usual_step;
 use crate::lab::frames::CellOutput;
@@ -36,8 +36,8 @@ pub(super) struct PlanArgs {
     size: Option<Size>,
 
     /// How the quadratic is evaluated
-    #[arg(long, value_parser = choice(&Method::ALL, Method::name), default_value_t = Method::default())]
-    method: Method,
+    #[arg(long, value_parser = method_name(), default_value = Method::default().name())]
+    method: MethodName,
 
     /// Height of a character cell over its width
     #[arg(long, default_value_t = CELL_ASPECT, value_parser = aspect)]
@@ -75,7 +75,7 @@ fn plans(arguments: &PlanArgs) -> Result<Plans, Failure> {
     }
     let view = view_in(style, arguments.view).map_err(Failure::misused)?;
     let (size, shape) = fit_in(&scene, style, ROOM, arguments.size, arguments.aspect);
-    let mut screen = FrameSeries::new(arguments, view, size, shape);
+    let mut screen = FrameSeries::new(arguments, (arguments.method.method()?, view), size, shape);
     let mut progress = Progress::unheeded("plan", 3);
     progress.go_on(0, "the whole picture");
     let mut frames = vec![screen.show(&scene, "whole", "the whole picture, on an empty screen")];
@@ -95,7 +95,7 @@ fn plans(arguments: &PlanArgs) -> Result<Plans, Failure> {
         height: size.height,
         spheres,
         projection: scene.camera.projection.name(),
-        method: arguments.method.name(),
+        method: screen.method.name(),
         view: view.name(),
         style: style.name(),
         frames,
@@ -120,11 +120,16 @@ struct FrameSeries {
 }
 
 impl FrameSeries {
-    fn new(arguments: &PlanArgs, view: View, size: Size, shape: PixelShape) -> Self {
+    fn new(
+        arguments: &PlanArgs,
+        (method, view): (Method, View),
+        size: Size,
+        shape: PixelShape,
+    ) -> Self {
         Self {
             size,
             shape,
-            method: arguments.method,
+            method,
             view,
             look: Look {
                 style: arguments.style,

@@ -10,7 +10,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::appearance::{Color, ColorChoice, default_style};
-use super::{Failure, Outcome, aspect, choice, write_out, write_picture};
+use super::{Failure, MethodName, Outcome, aspect, choice, method_name, write_out, write_picture};
 use crate::explain::{self, Digits, Drawn, Reading};
 use crate::explorer::{self, Explorer, Options, Palette, Panel, Setting};
 use crate::method::Method;
@@ -42,8 +42,8 @@ pub(super) struct Print {
     size: Option<Size>,
 
     /// How the quadratic is evaluated
-    #[arg(long, env = "RAYSCOPE_METHOD", hide_env_values = true, value_parser = choice(&Method::ALL, Method::name), default_value_t = Method::default())]
-    method: Method,
+    #[arg(long, env = "RAYSCOPE_METHOD", hide_env_values = true, value_parser = method_name(), default_value = Method::default().name())]
+    method: MethodName,
 
     #[command(flatten)]
     color: Color,
@@ -117,6 +117,7 @@ fn screen_as_svg(arguments: &Print) -> Result<String, Failure> {
 /// What is asked for.
 fn text(arguments: &Print) -> Result<String, Failure> {
     let (scene, _) = Scene::open(&arguments.scene).map_err(Failure::invalid)?;
+    let method = arguments.method.method()?;
     let capability = arguments.color.color.over(Capability::of_output());
     let style = arguments
         .style
@@ -127,11 +128,11 @@ fn text(arguments: &Print) -> Result<String, Failure> {
     match arguments.pixel {
         None => {
             let depth = capability.depth;
-            Ok(picture(&scene, &rays, arguments, view, (style, depth)))
+            Ok(picture(&scene, &rays, (method, view), (style, depth)))
         }
         Some((x, y)) if x < size.width && y < size.height => {
             let ray = rays.ray(x, y);
-            let reading = Reading::take(&scene, (x, y), ray, arguments.method, None, None);
+            let reading = Reading::take(&scene, (x, y), ray, method, None, None);
             let text = if arguments.steps {
                 let glyphs = capability.glyphs;
                 let look = Look {
@@ -140,7 +141,7 @@ fn text(arguments: &Print) -> Result<String, Failure> {
                     ascii_only: glyphs == Glyphs::Ascii,
                     coarse: false,
                 };
-                steps(&scene, &rays, arguments, &reading, (view, look))
+                steps(&scene, &rays, &reading, (view, look))
             } else {
                 panel(&reading)
             };
@@ -189,15 +190,9 @@ fn panel(reading: &Reading) -> String {
 }
 
 /// The derivation of a pixel, from its place to the character that shows it.
-fn steps(
-    scene: &Scene,
-    rays: &Rays,
-    arguments: &Print,
-    reading: &Reading,
-    (view, look): (View, Look),
-) -> String {
+fn steps(scene: &Scene, rays: &Rays, reading: &Reading, (view, look): (View, Look)) -> String {
     let mut frame = Frame::new();
-    frame.render(scene, rays, arguments.method, view);
+    frame.render(scene, rays, reading.method, view);
     let mut image = Image::new();
     image.draw(&frame, scene, look);
     let drawn = Drawn::at(reading.pixel, &frame, &image, look.style);
@@ -212,12 +207,11 @@ fn steps(
 fn picture(
     scene: &Scene,
     rays: &Rays,
-    arguments: &Print,
-    view: View,
+    (method, view): (Method, View),
     (style, depth): (Style, ColorDepth),
 ) -> String {
     let mut frame = Frame::new();
-    frame.render(scene, rays, arguments.method, view);
+    frame.render(scene, rays, method, view);
     let mut image = Image::new();
     let look = Look {
         style,

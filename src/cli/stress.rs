@@ -6,7 +6,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use super::failure::{DONE, INVALID};
 use super::progress::{INTERRUPTED, Progress};
 use super::sweep::SweepArgs;
-use super::{Outcome, save, whole, write_out};
+use super::{Failure, Outcome, save, whole, write_out};
 use crate::lab::stress::{self, Stability, StressPlan};
 use crate::lab::{Dial, plot};
 use crate::report::Format;
@@ -33,7 +33,7 @@ fn dial() -> impl TypedValueParser<Value = &'static Dial> {
 
 /// Runs what was asked for; the exit status says whether `exact` and `double` kept their promises.
 pub(super) fn run(arguments: &StressArgs) -> Outcome {
-    let plan = plan(arguments);
+    let plan = plan(arguments)?;
     let mut progress = Progress::new("stress", plan.dials.len() + 1)?;
     let swept = stress::run(&plan, |number, name| progress.go_on(number, name));
     progress.clear();
@@ -49,10 +49,10 @@ pub(super) fn run(arguments: &StressArgs) -> Outcome {
     })
 }
 
-fn plan(arguments: &StressArgs) -> StressPlan {
+fn plan(arguments: &StressArgs) -> Result<StressPlan, Failure> {
     let usual = if arguments.sweep.quick { 256 } else { 2048 };
-    StressPlan {
-        methods: arguments.sweep.methods().into(),
+    Ok(StressPlan {
+        methods: arguments.sweep.methods()?,
         dials: if arguments.dial.is_empty() {
             Dial::ALL.iter().collect()
         } else {
@@ -60,7 +60,7 @@ fn plan(arguments: &StressArgs) -> StressPlan {
         },
         seed: arguments.sweep.seed,
         rays: arguments.rays.map_or(usual, |rays| rays as usize),
-    }
+    })
 }
 
 fn in_format(swept: &Stability, format: Format) -> String {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{choice, seed};
+use super::{Failure, MethodName, choice, method_name, seed};
 use crate::method::Method;
 use crate::report::Format;
 
@@ -20,8 +20,8 @@ pub(super) struct SweepArgs {
     pub seed: u64,
 
     /// Only these methods, separated by commas
-    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = choice(&Method::ALL, Method::name))]
-    method: Vec<Method>,
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = method_name())]
+    method: Vec<MethodName>,
 
     /// Also draw a chart, as SVG
     #[arg(long, value_name = "FILE")]
@@ -34,12 +34,13 @@ pub(super) struct SweepArgs {
 
 impl SweepArgs {
     /// The methods that are asked for by name, if any is.
-    pub fn named(&self) -> Option<&[Method]> {
-        (!self.method.is_empty()).then_some(&self.method)
+    pub fn named(&self) -> Result<Option<Vec<Method>>, Failure> {
+        let methods: Result<Vec<_>, _> = self.method.iter().map(MethodName::method).collect();
+        methods.map(|methods| (!methods.is_empty()).then_some(methods))
     }
 
     /// The methods that are asked for: all, if none is named.
-    pub fn methods(&self) -> &[Method] {
-        self.named().unwrap_or(&Method::ALL)
+    pub fn methods(&self) -> Result<Vec<Method>, Failure> {
+        Ok(self.named()?.unwrap_or_else(|| Method::ALL.to_vec()))
     }
 }

@@ -483,6 +483,11 @@ fn verdict_lines(subject: &Subject, width: usize, digits: Digits) -> Vec<Line> {
         class, near, far, ..
     } = subject.solution;
     let verdict = match class {
+        Class::Hit => "hit, as the routine says",
+        Class::Miss if subject.trace.method.is_routine() => "miss, as the routine says",
+        Class::Tangent if subject.trace.method.is_routine() => "one root, as the routine says",
+        Class::Secant if subject.trace.method.is_routine() => "two roots, as the routine says",
+        Class::Nan if subject.trace.method.is_routine() => "not a number: no answer",
         Class::Miss => "Δ < 0  miss: no point in common",
         Class::Tangent => "Δ = 0  tangent: it touches",
         Class::Secant => "Δ > 0  secant: two points",

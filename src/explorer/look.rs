@@ -15,7 +15,7 @@ const CHOSEN_HERE: &str = "chosen here";
 pub(crate) fn act(action: Action, state: &mut State) -> bool {
     match action {
         Action::NextMethod => turn_method(state, 1),
-        Action::PreviousMethod => turn_method(state, Method::ALL.len() - 1),
+        Action::PreviousMethod => turn_method(state, state.methods().len() - 1),
         Action::OtherLens => state.at.lens = state.at.lens.other(),
         Action::NextView => turn_view(state, 1),
         Action::PreviousView => turn_view(state, View::ALL.len() - 1),
@@ -46,7 +46,7 @@ fn toggle_mouse(state: &mut State) {
 }
 
 fn turn_method(state: &mut State, by: usize) {
-    set_method(state, turn(&Method::ALL, state.at.method, by));
+    set_method(state, turn(&state.methods(), state.at.method, by));
 }
 
 /// Chooses a method, and looks at what its arithmetic does.

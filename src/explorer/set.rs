@@ -8,13 +8,18 @@ use crate::explorer::panel::Panel;
 use crate::explorer::panel::component::show;
 use crate::explorer::setting::Setting;
 use crate::explorer::state::State;
-use crate::explorer::{cursor, look, walk};
+use crate::explorer::{cursor, look, routines, walk};
 use crate::method::Method;
 use crate::scene::{Scene, Size};
 
 /// Gives one setting its value, as a command does; says why not if it can't have it.
 pub(crate) fn set(state: &mut State, setting: Setting) {
     match setting {
+        Setting::Routine { name, beside } => match routines::open(state, &name) {
+            Ok(method) if beside => set(state, Setting::Compare(method)),
+            Ok(method) => set(state, Setting::Method(method)),
+            Err(sentence) => state.warn(sentence),
+        },
         Setting::Method(method) => look::set_method(state, method),
         Setting::Lens(lens) => state.at.lens = lens,
         Setting::Style(style) => look::set_style(state, style),
@@ -57,6 +62,14 @@ pub(crate) fn set_out(state: &mut State, settings: &[Setting]) -> Result<(), Str
     let mut wanted = None;
     for setting in settings {
         match *setting {
+            Setting::Routine { ref name, beside } => {
+                let method = routines::open(state, name)?;
+                *(if beside {
+                    at.compare.get_or_insert(method)
+                } else {
+                    &mut at.method
+                }) = method;
+            }
             Setting::Sphere(n) => {
                 let found = in_scene(state.scene(), n);
                 at.sphere = Some(found.map_err(|e| refuse("sphere", n.to_string(), e))?);

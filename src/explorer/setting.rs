@@ -22,6 +22,13 @@ use crate::text::{by_name, read};
 pub enum Setting {
     /// How the quadratic is evaluated.
     Method(Method),
+    /// The same by the routine in a file, or the method beside the chosen one.
+    Routine {
+        /// The file, as it was named.
+        name: String,
+        /// Whether it is the one beside.
+        beside: bool,
+    },
     /// Which story of a pixel is told.
     Lens(Lens),
     /// How samples become characters.
@@ -83,7 +90,7 @@ pub const SETTINGS: &[SettingRow] = &[
         flag: Some(("METHOD", "How the quadratic is evaluated")),
         spoken: Some("method"),
         choices: || names(&Method::ALL, Method::name),
-        parse: |text| one_of(text, &Method::ALL, Method::name).map(Setting::Method),
+        parse: |text| method(text, false),
         write: |at| Some(at.method.name().into()),
     },
     SettingRow {
@@ -210,7 +217,7 @@ pub const SETTINGS: &[SettingRow] = &[
         flag: Some(("METHOD", "The method beside the chosen one")),
         spoken: Some("compared with"),
         choices: || names(&Method::ALL, Method::name),
-        parse: |text| one_of(text, &Method::ALL, Method::name).map(Setting::Compare),
+        parse: |text| method(text, true),
         write: |at| at.compare.map(|method| method.name().into()),
     },
     SettingRow {
@@ -313,6 +320,7 @@ impl Viewpoint {
                     .map_or(self.step, |n: usize| n.saturating_sub(1));
             }
             Setting::Theme(_)
+            | Setting::Routine { .. }
             | Setting::Color(_)
             | Setting::Aspect(_)
             | Setting::Set(..)
@@ -356,6 +364,21 @@ pub(crate) fn one_of<T: Copy>(
 ) -> Result<T, String> {
     let found = by_name(all.iter().copied(), name, text);
     found.ok_or_else(|| format!("expected one of {}", names(all, name).join(", ")))
+}
+
+/// Reads a method: built in, or the file of a routine.
+fn method(text: &str, beside: bool) -> Result<Setting, String> {
+    if Method::is_file(text) {
+        let name = text.to_owned();
+        return Ok(Setting::Routine { name, beside });
+    }
+    let expected = |problem| format!("{problem}, or a file such as mine.glsl");
+    let method = one_of(text, &Method::ALL, Method::name).map_err(expected)?;
+    Ok(if beside {
+        Setting::Compare(method)
+    } else {
+        Setting::Method(method)
+    })
 }
 
 fn cursor(text: &str) -> Result<Setting, String> {

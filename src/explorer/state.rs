@@ -14,6 +14,7 @@ use crate::explorer::files::place::FilePlace;
 use crate::explorer::files::rescue::Rescue;
 use crate::explorer::files::workplace::Workplace;
 use crate::explorer::options::{Options, Request};
+use crate::explorer::own_routine::OwnRoutine;
 use crate::explorer::panel::Panel;
 use crate::explorer::viewpoint::Viewpoint;
 use crate::method::Method;
@@ -66,6 +67,8 @@ pub(crate) struct State {
     pub(crate) quits_once_saved: bool,
     /// The bytes of the last frame, and of the largest one.
     pub(crate) sent: Option<[u64; 2]>,
+    /// One's own methods that were opened.
+    pub(crate) routines: Vec<OwnRoutine>,
     /// Whether the picture is drawn with few shades, since its bytes go out slowly.
     pub(crate) coarse: bool,
 }
@@ -144,6 +147,7 @@ impl State {
             ended: None,
             quits_once_saved: false,
             sent: None,
+            routines: Vec::new(),
             coarse: false,
         }
     }
@@ -246,10 +250,16 @@ impl State {
         self.prediction.on && !self.picture.steps.is_empty()
     }
 
+    /// All methods that keys turn through: those that are built in, and one's own.
+    pub(crate) fn methods(&self) -> Vec<Method> {
+        let own = self.routines.iter().map(|routine| routine.method);
+        Method::ALL.into_iter().chain(own).collect()
+    }
+
     /// The method that the chosen one is compared with.
     pub(crate) fn other_method(&self) -> Method {
         let method = self.at.method;
-        let next = || turn(&Method::ALL, method, 1);
+        let next = || turn(&self.methods(), method, 1);
         self.at
             .compare
             .filter(|&m| m != method)

@@ -29,6 +29,7 @@ use crate::explorer::mode::{Mode, export_case};
 use crate::explorer::options::{Options, Request};
 use crate::explorer::panel::all::Panels;
 use crate::explorer::panel::dial::DialPanel;
+use crate::explorer::routines::{self, Watch};
 use crate::explorer::set;
 use crate::explorer::setting::Setting;
 use crate::explorer::state::{State, Work};
@@ -47,6 +48,8 @@ pub struct Explorer {
     pub(crate) tour: Tour,
     /// What is open over the screen; the last hears the keys first.
     pub(crate) modes: Vec<Mode>,
+    /// Who looks at the files of one's own routines.
+    pub(crate) watch: Watch,
 }
 
 /// The parts that do actions on the state alone.
@@ -72,6 +75,7 @@ impl Explorer {
             panels: Panels::default(),
             tour: Tour::default(),
             modes: Vec::new(),
+            watch: Watch::default(),
         }
     }
 
@@ -132,6 +136,8 @@ impl Explorer {
     pub fn update(&mut self, event: &Event) -> bool {
         let is_seen = self.take(event);
         keep::note_changes(&mut self.state, &self.panels.error.waker);
+        self.watch
+            .over(&self.state.routines, &self.panels.error.waker);
         is_seen
     }
 
@@ -262,12 +268,15 @@ impl Explorer {
     /// Has the explorer ring `waker` when something comes in that [`Explorer::catch_up`] takes.
     pub fn wake_by(&mut self, waker: Waker) {
         self.panels.error.waker = waker;
+        self.watch
+            .over(&self.state.routines, &self.panels.error.waker);
     }
 
     /// Takes what threads have finished; false if nothing on the screen can have changed.
     pub fn catch_up(&mut self) -> bool {
         let is_said = keep::write_down_if_due(&mut self.state, &self.panels.error.waker);
-        self.panels.error.catch_up(&mut self.state) || is_said
+        let is_read = routines::catch_up(&mut self.state);
+        self.panels.error.catch_up(&mut self.state) || is_said || is_read
     }
 
     /// Calls a measurement off before this process stops.
@@ -281,6 +290,13 @@ impl Explorer {
         self.state.workplace = workplace;
         keep::keep(&mut self.state, source);
         self.open_dialog();
+    }
+
+    /// Finds files in that place from now on.
+    #[must_use]
+    pub fn finding_files_in(mut self, workplace: Workplace) -> Self {
+        self.state.workplace = workplace;
+        self
     }
 
     /// Works in that place on a tour, on top of a scene of which nothing is offered.

@@ -68,13 +68,31 @@ pub struct RootError {
 
 /// Holds one answer against the truth.
 pub fn judge(truth: &Reference, answer: &Solution) -> Judgement {
-    use Class::{Miss, Nan, Secant, Tangent};
+    use Class::{Hit, Miss, Nan, Secant, Tangent};
     match (truth.class, answer.class) {
         (_, Nan) => Judgement::Wrong(Fault::NotFinite),
-        (Miss, Tangent | Secant) => Judgement::Wrong(Fault::FalseHit),
+        (Miss, Hit) if answer.near <= 0.0 => Judgement::Agreed(None),
+        (Miss, Tangent | Secant | Hit) => Judgement::Wrong(Fault::FalseHit),
+        // Behind the eye, what looks at the ray alone may well see nothing.
+        (Tangent | Secant, Miss) if answer.tells_of_ray_alone() && truth.visible().is_none() => {
+            Judgement::Agreed(None)
+        }
+        (Tangent | Secant, Hit) => judge_hit(truth, answer),
         (Tangent | Secant, Miss) => Judgement::Wrong(Fault::FalseMiss),
         (Tangent, Secant) | (Secant, Tangent) => Judgement::Wrong(Fault::WrongCount),
         _ => judge_roots(truth, answer),
+    }
+}
+
+/// Of a routine that says that it hits, and gives one t at most: it is the one that is seen.
+fn judge_hit(truth: &Reference, answer: &Solution) -> Judgement {
+    let t = answer.near;
+    match truth.visible() {
+        _ if t.is_nan() => Judgement::Agreed(None),
+        Some(_) if t <= 0.0 => Judgement::Wrong(Fault::FalseMiss),
+        None if t > 0.0 => Judgement::Wrong(Fault::FalseHit),
+        Some(root) => judge_root(root, t).map_or_else(Judgement::Wrong, Judgement::Agreed),
+        None => Judgement::Agreed(None),
     }
 }
 

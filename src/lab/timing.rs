@@ -115,8 +115,13 @@ pub fn routine(method: Method) -> Box<dyn Routine> {
                     method,
                     single: |r: &Ray, s: &Sphere| Method::$variant.solve(r, s),
                 }),)*
+                Method::Routine(_) => unreachable!("returned above"),
             }
         };
+    }
+    if method.is_routine() {
+        let single = move |r: &Ray, s: &Sphere| method.solve(r, s);
+        return Box::new(Of { method, single });
     }
     of!(
         Textbook, Contracted, Unit, Citardauq, Haines, Kahan, Double, Exact

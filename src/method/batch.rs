@@ -218,6 +218,11 @@ impl Solutions {
         }
     }
 
+    fn put_at(&mut self, i: usize, answer: Solution) {
+        (self.class[i], self.place[i]) = (answer.class, answer.place);
+        (self.near[i], self.far[i]) = (answer.near, answer.far);
+    }
+
     /// Makes room for n answers, in what is there already if it suffices.
     fn resize(&mut self, n: usize) {
         self.class.resize(n, Class::Miss);
@@ -274,6 +279,7 @@ impl<O: Vectors, D: Vectors, C: Vectors, R: Scalars> Batch<O, D, C, R> {
             Method::Kahan => self.each::<Kahan>(out),
             Method::Double => self.each::<Double>(out),
             Method::Exact => simd::dispatch(Exactly { batch: self, out }),
+            Method::Routine(id) => id.solve_all(self, |i, answer| out.put_at(i, answer)),
         }
     }
 
@@ -290,6 +296,10 @@ impl<O: Vectors, D: Vectors, C: Vectors, R: Scalars> Batch<O, D, C, R> {
         assert_eq!(self.count(), out.len(), "lanes and room for answers");
         if method == Method::Exact {
             simd::dispatch(Exactly { batch: self, out });
+        } else if let Method::Routine(id) = method {
+            id.solve_all(self, |i, answer| {
+                out[i] = answer.visible().unwrap_or(f32::NAN);
+            });
         } else {
             for (i, t) in out.iter_mut().enumerate() {
                 let (ray, sphere) = self.get(i);
@@ -305,6 +315,8 @@ impl<O: Vectors, D: Vectors, C: Vectors, R: Scalars> Batch<O, D, C, R> {
         assert_eq!(self.count(), out.len(), "lanes and room for answers");
         if method == Method::Exact {
             simd::dispatch(Exactly { batch: self, out });
+        } else if let Method::Routine(id) = method {
+            id.solve_all(self, |i, answer| out[i] = answer.class);
         } else {
             for (i, class) in out.iter_mut().enumerate() {
                 let (ray, sphere) = self.get(i);

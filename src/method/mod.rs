@@ -3,6 +3,7 @@
 //! The rest of the program asks a [`Method`] and gets a [`Solution`]. The renderer alone also has a
 //! test of its own, which decides only what `exact` is proven to say. Each method has a file of its own.
 
+mod ball;
 pub mod batch;
 mod citardauq;
 mod contracted;
@@ -16,6 +17,11 @@ mod kahan;
 mod number;
 mod order;
 mod q_form;
+#[cfg(not(feature = "routine"))]
+#[path = "no_routine.rs"]
+mod routine;
+#[cfg(feature = "routine")]
+mod routine;
 pub(crate) mod simd;
 mod surd;
 mod tape;
@@ -25,13 +31,18 @@ mod truth;
 mod unit;
 
 pub use dyadic::Dyadic;
+#[cfg(feature = "routine")]
+pub use routine::Routine;
+pub use routine::RoutineId;
 pub use surd::{DecimalDigits, Surd};
 pub use trace::Trace;
 pub use truth::{Truth, bits_lost, root_bits_lost, ulp_error};
 
 use std::cmp::Ordering;
 use std::fmt;
+use std::path::Path;
 
+use crate::door::FileError;
 use crate::geometry::{Ray, Sphere};
 use citardauq::Citardauq;
 use contracted::Contracted;
@@ -61,10 +72,12 @@ pub enum Method {
     /// The exact class, and both roots rounded once, by as many stages as the ray needs.
     #[default]
     Exact,
+    /// One's own, from a file.
+    Routine(RoutineId),
 }
 
 impl Method {
-    /// All methods, in the order in which lists show them.
+    /// All methods that are built in, in the order in which lists show them.
     pub const ALL: [Self; 8] = [
         Self::Textbook,
         Self::Contracted,
@@ -77,8 +90,9 @@ impl Method {
     ];
 
     /// The name on the command line, in files and on the screen.
-    pub const fn name(self) -> &'static str {
+    pub fn name(self) -> &'static str {
         match self {
+            Self::Routine(id) => id.name(),
             Self::Textbook => "textbook",
             Self::Contracted => "contracted",
             Self::Unit => "unit",
@@ -90,9 +104,19 @@ impl Method {
         }
     }
 
-    /// The method of that name.
+    /// The built-in method of that name.
     pub fn by_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|m| m.name() == name)
+    }
+
+    /// Whether a name is that of a file, not of a built-in method: it has a dot or a slash in it.
+    pub fn is_file(name: &str) -> bool {
+        name.contains(['.', '/'])
+    }
+
+    /// The routine in a file, under that name.
+    pub fn load(name: &str, path: &Path) -> Result<Self, FileError> {
+        RoutineId::load(name, path).map(Self::Routine)
     }
 
     /// Where the line of `ray` meets `sphere`.
@@ -106,10 +130,12 @@ impl Method {
             Self::Kahan => formula::solve_in_loop::<Kahan>(ray, sphere),
             Self::Double => formula::solve::<Double>(ray, sphere),
             Self::Exact => exact::solve(ray, sphere),
+            Self::Routine(id) => id.solve(ray, sphere),
         }
     }
 
-    /// A, B, C and Δ as this method's own arithmetic has them.
+    /// A, B, C and Δ as this method's own arithmetic has them; a routine names none, and those of `double` stand
+    /// for them.
     pub fn coefficients(self, ray: &Ray, sphere: &Sphere) -> Coefficients {
         match self {
             Self::Textbook => formula::coefficients::<Textbook>(ray, sphere),
@@ -118,7 +144,7 @@ impl Method {
             Self::Citardauq => formula::coefficients::<Citardauq>(ray, sphere),
             Self::Haines => formula::coefficients::<Haines>(ray, sphere),
             Self::Kahan => formula::coefficients::<Kahan>(ray, sphere),
-            Self::Double => formula::coefficients::<Double>(ray, sphere),
+            Self::Double | Self::Routine(_) => formula::coefficients::<Double>(ray, sphere),
             Self::Exact => exact::coefficients(ray, sphere),
         }
     }
@@ -126,6 +152,20 @@ impl Method {
     /// How this method comes to its answer, step by step, beside what is exact.
     pub fn trace(self, ray: &Ray, sphere: &Sphere) -> Trace {
         Trace::new(self, ray, sphere)
+    }
+
+    /// Whether it is somebody's own.
+    pub const fn is_routine(self) -> bool {
+        matches!(self, Self::Routine(_))
+    }
+
+    /// Whether it is a routine that gives one t, or no more than hit or miss: what lies behind the eye may then be
+    /// none of either.
+    pub fn gives_one_at_most(self) -> bool {
+        match self {
+            Self::Routine(id) => id.gives_one_at_most(),
+            _ => false,
+        }
     }
 
     fn steps(self, ray: &Ray, sphere: &Sphere, truth: &Truth) -> Vec<trace::TraceStep> {
@@ -138,6 +178,7 @@ impl Method {
             Self::Kahan => formula::steps::<Kahan>(ray, sphere, truth),
             Self::Double => formula::steps::<Double>(ray, sphere, truth),
             Self::Exact => trace::exact::steps(ray, sphere, truth),
+            Self::Routine(id) => trace::routine::steps(id, ray, sphere, truth),
         }
     }
 }
@@ -157,6 +198,8 @@ pub enum Class {
     Tangent,
     /// Δ > 0: the line crosses the sphere in two points.
     Secant,
+    /// The line meets the sphere; in how many points, a routine need not say.
+    Hit,
     /// The method's discriminant is not a number, so it has no answer.
     Nan,
 }
@@ -181,13 +224,14 @@ impl Class {
             Self::Miss => "miss",
             Self::Tangent => "tangent",
             Self::Secant => "secant",
+            Self::Hit => "hit",
             Self::Nan => "nan",
         }
     }
 
     /// Whether the line has a point in common with the sphere; a tangent has.
     pub const fn meets(self) -> bool {
-        matches!(self, Self::Tangent | Self::Secant)
+        matches!(self, Self::Tangent | Self::Secant | Self::Hit)
     }
 }
 
@@ -302,6 +346,13 @@ impl Solution {
         }
     }
 
+    /// No hit, of a routine that says nothing of what lies behind the eye.
+    #[cfg(feature = "routine")]
+    const UNSEEN: Self = Self {
+        place: Some(Place::Behind),
+        ..Self::MISS
+    };
+
     /// An answer with both roots, which also say where the sphere lies; a root of −0 is given as the 0
     /// it equals.
     #[inline]
@@ -322,7 +373,12 @@ impl Solution {
 
     /// Where the sphere lies, or nothing if the line misses it.
     pub const fn place(&self) -> Option<Place> {
-        self.place
+        if self.class.meets() { self.place } else { None }
+    }
+
+    /// Whether it is no hit of a routine that gives one t at most: nothing is said of what lies behind the eye.
+    pub fn tells_of_ray_alone(&self) -> bool {
+        self.class == Class::Miss && self.place.is_some()
     }
 
     /// The visible root: the least t > 0.
@@ -331,6 +387,8 @@ impl Solution {
             return None;
         }
         match self.place? {
+            // What says no more than that it hits is as far off as can be.
+            Place::Hit if self.near.is_nan() => Some(f32::INFINITY),
             Place::Hit => Some(self.near),
             Place::Inside => Some(self.far),
             Place::Behind => None,

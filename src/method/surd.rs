@@ -231,6 +231,26 @@ impl Surd {
         Some((m, k, exact))
     }
 
+    /// The number to that many bits, and log2 of how far off that may be; none if it is the number itself.
+    pub(super) fn approximation(&self, bits: i64) -> (Dyadic, Option<i64>) {
+        let Some((m, k, exact)) = self.leading_bits(bits) else {
+            return (Dyadic::ZERO, None);
+        };
+        let m = IBig::from(m);
+        let negative = self.sign() == Ordering::Less;
+        let near = Dyadic::new(if negative { -m } else { m }, -k);
+        (near, (!exact).then_some(-k))
+    }
+
+    /// About how many bits it takes to work with.
+    pub(super) fn size(&self) -> i64 {
+        let size = |d: &Dyadic| {
+            d.floor_log2()
+                .map_or(0, |log| (log - d.exponent()) + d.exponent().abs())
+        };
+        size(&self.x) + size(&self.y) + size(&self.n) + size(&self.z)
+    }
+
     /// ⌊log2|self|⌋; none for zero.
     pub fn floor_log2(&self) -> Option<i64> {
         let (m, k, _) = self.leading_bits(8)?;

@@ -9,6 +9,7 @@ use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::Precision;
+use super::ball::Exact;
 use super::number::Scalar;
 use super::surd::Surd;
 use crate::number::Number;
@@ -41,7 +42,7 @@ pub(super) struct Entry {
     pub value: f64,
     /// The result of the same operations on the same inputs, none of them rounded; none where the
     /// operation has no result, as the root of a negative number.
-    pub exact: Option<Surd>,
+    pub exact: Option<Exact>,
 }
 
 /// An operation of IEEE 754.
@@ -54,6 +55,10 @@ pub(super) enum Operation {
     Neg,
     Sqrt,
     MulAdd,
+    /// To the nearest number of fewer bits.
+    Narrow,
+    /// To a whole number.
+    Whole,
 }
 
 /// What an operation was applied to.
@@ -68,7 +73,16 @@ pub(super) enum Operand {
 impl Tape {
     /// An input, which is exact.
     pub fn input<F: Float>(&self, value: F) -> Traced<'_, F> {
-        self.push(None, Vec::new(), value, Surd::from_f64(value.into()))
+        self.push(None, Vec::new(), value, exactly(value))
+    }
+
+    /// A number that is rounded, or chosen, in a way of its own.
+    pub fn rounded<F: Float>(&self, operation: Operation, of: Operand, value: F) -> Traced<'_, F> {
+        let exact = match operation {
+            Operation::Narrow => self.exact(of),
+            _ => None,
+        };
+        self.push(Some(operation), vec![of], value, exact)
     }
 
     /// The entry of that number; none for one that is not on the tape.
@@ -76,9 +90,9 @@ impl Tape {
         self.0.borrow().get(entry).cloned()
     }
 
-    fn exact(&self, operand: Operand) -> Option<Surd> {
+    fn exact(&self, operand: Operand) -> Option<Exact> {
         match operand {
-            Operand::Constant(value) => Surd::from_f64(value),
+            Operand::Constant(value) => exactly(value),
             Operand::Entry(i) => self.0.borrow().get(i)?.exact.clone(),
         }
     }
@@ -88,7 +102,7 @@ impl Tape {
         operation: Option<Operation>,
         operands: Vec<Operand>,
         value: F,
-        exact: Option<Surd>,
+        exact: Option<Exact>,
     ) -> Traced<'_, F> {
         let mut entries = self.0.borrow_mut();
         entries.push(Entry {
@@ -125,11 +139,28 @@ impl<F: Float> Traced<'_, F> {
         }
     }
 
-    /// What this number would be without rounding.
+    /// What this number would be without rounding, if it can be told.
     pub fn exact(self) -> Option<Surd> {
+        self.unrounded()?.told()
+    }
+
+    fn unrounded(self) -> Option<Exact> {
         match self.place {
             Some((tape, entry)) => tape.exact(Operand::Entry(entry)),
-            None => Surd::from_f64(self.value.into()),
+            None => exactly(self.value),
+        }
+    }
+
+    /// The same number with another sign of zero.
+    pub fn with(self, value: F) -> Self {
+        Self { value, ..self }
+    }
+
+    /// A whole number near this one: what it would be without rounding is another question.
+    pub fn whole(self, value: F) -> Self {
+        match self.place {
+            Some((tape, _)) => tape.rounded(Operation::Whole, self.operand(), value),
+            None => Self::constant(value),
         }
     }
 
@@ -137,16 +168,16 @@ impl<F: Float> Traced<'_, F> {
         let Some((tape, _)) = operands.iter().find_map(|o| o.place) else {
             return Self::constant(value);
         };
-        let exact = operands.map(Self::exact);
+        let exact = operands.map(Self::unrounded);
         let exact = match (operation, exact.each_ref().map(Option::as_ref).as_slice()) {
-            (Operation::Add, [Some(x), Some(y)]) => x.checked_add(y),
-            (Operation::Sub, [Some(x), Some(y)]) => x.checked_sub(y),
-            (Operation::Mul, [Some(x), Some(y)]) => x.checked_mul(y),
-            (Operation::Div, [Some(x), Some(y)]) => x.checked_div(y),
-            (Operation::Neg, [Some(x)]) => Some(-(*x).clone()),
-            (Operation::Sqrt, [Some(x)]) => x.checked_sqrt(),
+            (Operation::Add, [Some(x), Some(y)]) => x.add(y),
+            (Operation::Sub, [Some(x), Some(y)]) => x.sub(y),
+            (Operation::Mul, [Some(x), Some(y)]) => x.mul(y),
+            (Operation::Div, [Some(x), Some(y)]) => x.div(y),
+            (Operation::Neg, [Some(x)]) => Some(x.neg()),
+            (Operation::Sqrt, [Some(x)]) => x.sqrt(),
             (Operation::MulAdd, [Some(x), Some(y), Some(z)]) => {
-                x.checked_mul(y).and_then(|product| product.checked_add(z))
+                x.mul(y).and_then(|product| product.add(z))
             }
             _ => None,
         };
@@ -157,6 +188,31 @@ impl<F: Float> Traced<'_, F> {
     fn constant(value: F) -> Self {
         Self { value, place: None }
     }
+}
+
+impl<'t> Traced<'t, f32> {
+    /// The same number with more bits.
+    pub fn as_wide(self) -> Traced<'t, f64> {
+        Traced {
+            value: self.value.into(),
+            place: self.place,
+        }
+    }
+}
+
+impl<'t> Traced<'t, f64> {
+    /// The nearest number of fewer bits.
+    pub fn narrowed(self) -> Traced<'t, f32> {
+        let value = self.value as f32;
+        match self.place {
+            Some((tape, _)) => tape.rounded(Operation::Narrow, self.operand(), value),
+            None => Traced { value, place: None },
+        }
+    }
+}
+
+fn exactly(value: impl Into<f64>) -> Option<Exact> {
+    Surd::from_f64(value.into()).map(Exact::Surd)
 }
 
 macro_rules! traced_operator {

@@ -32,10 +32,10 @@ impl Contact {
             (Class::Nan, _) => Self::Nan,
             (Class::Miss, _) | (_, None) => Self::Miss,
             (Class::Tangent, Some(Place::Behind)) => Self::TangentBehind,
-            (Class::Secant, Some(Place::Behind)) => Self::SecantBehind,
+            (Class::Secant | Class::Hit, Some(Place::Behind)) => Self::SecantBehind,
             (_, Some(Place::Inside)) => Self::Inside,
             (Class::Tangent, Some(Place::Hit)) => Self::Tangent,
-            (Class::Secant, Some(Place::Hit)) => Self::Secant,
+            (Class::Secant | Class::Hit, Some(Place::Hit)) => Self::Secant,
         }
     }
 

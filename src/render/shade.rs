@@ -36,6 +36,15 @@ impl Hit<'_> {
             (Method::Exact, light) => {
                 return self.spot().brightness(light.as_ref().map(position)) as f32;
             }
+            // A routine has no discriminant of its own: the light is where the eye is.
+            (Method::Routine(_), None) if self.t.is_finite() => {
+                let (outward, spot) = (self.outward(), self.spot());
+                let to_eye = sub(spot.o, outward);
+                cosine(to_eye, facing(outward, self.is_inside()))
+            }
+            (Method::Routine(_), None) => {
+                return self.spot().brightness(None) as f32;
+            }
             (method, None) => {
                 // A discriminant below 0 is one that only rounding put there.
                 let q = method.coefficients(self.ray, self.sphere);

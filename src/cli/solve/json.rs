@@ -137,13 +137,13 @@ impl<'a> StepOut<'a> {
     fn new(step: &'a TraceStep) -> Self {
         let parts = step.result.parts();
         Self {
-            symbol: step.symbol,
-            formula: step.formula,
+            symbol: &step.symbol,
+            formula: &step.formula,
             numbers: &step.numbers,
-            precision: precision(parts[0].precision),
+            precision: precision(step.result.precision()),
             result: parts.iter().map(MeasuredOut::new).collect(),
-            why: step.why,
-            code: step.code,
+            why: &step.why,
+            code: &step.code,
             bits_lost: step.bits_lost(),
             losses: step.losses.iter().map(LossOut::new).collect(),
         }

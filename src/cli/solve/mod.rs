@@ -8,7 +8,7 @@ mod single;
 use std::path::PathBuf;
 
 use super::failure::{DONE, INVALID};
-use super::{Failure, Outcome, choice, write_out};
+use super::{Failure, MethodName, Outcome, method_name, write_out};
 use crate::method::Method;
 
 /// Work out where a line meets a sphere, step by step, or for a whole file of them
@@ -37,8 +37,8 @@ pub(super) struct Solve {
     #[arg(long, value_name = "FILE", conflicts_with_all = ["ray", "sphere", "format"])]
     batch: Option<PathBuf>,
     /// The way to evaluate the quadratic
-    #[arg(long, value_name = "METHOD", env = "RAYSCOPE_METHOD", hide_env_values = true, value_parser = choice(&Method::ALL, Method::name), default_value_t = Method::default())]
-    method: Method,
+    #[arg(long, value_name = "METHOD", env = "RAYSCOPE_METHOD", hide_env_values = true, value_parser = method_name(), default_value = Method::default().name())]
+    method: MethodName,
     /// How the derivation of one intersection is written
     #[arg(long, value_name = "FORMAT", value_enum, default_value_t)]
     format: DerivationFormat,
@@ -56,14 +56,15 @@ enum DerivationFormat {
 
 /// Does what `rayscope solve` was asked to.
 pub(super) fn run(arguments: &Solve) -> Outcome {
+    let method = arguments.method.method()?;
     match (&arguments.batch, &arguments.ray, &arguments.sphere) {
-        (Some(file), ..) => match batch::run(file, arguments.method)? {
+        (Some(file), ..) => match batch::run(file, method)? {
             batch::Validity::All => Ok(DONE),
             batch::Validity::Some => Ok(INVALID),
         },
         (None, Some(ray), Some(sphere)) => {
-            let (method, format) = (arguments.method, arguments.format);
-            let text = single::written(ray, sphere, method, format).map_err(Failure::invalid)?;
+            let text =
+                single::written(ray, sphere, method, arguments.format).map_err(Failure::invalid)?;
             write_out(&text)
         }
         // The parser asks for the two unless there is a batch.

@@ -57,6 +57,15 @@ fn write_text(out: &mut String, ray: &Ray, sphere: &Sphere, trace: &Trace) -> fm
 fn write_answer(out: &mut String, trace: &Trace, glyphs: Glyphs) -> fmt::Result {
     let class = trace.solution.class;
     let meaning = match class {
+        Class::Miss if trace.method.is_routine() => "the routine says that there is no hit",
+        Class::Tangent if trace.method.is_routine() => {
+            "the routine gives one root, or the same twice"
+        }
+        Class::Secant if trace.method.is_routine() => "the routine gives two roots",
+        Class::Nan if trace.method.is_routine() => {
+            "the routine has no answer: what it gives is not a number, or takes too long"
+        }
+        Class::Hit => "the routine says that there is a hit",
         Class::Miss => "Δ < 0: the line misses the sphere",
         Class::Tangent => "Δ = 0: the line touches the sphere in one point",
         Class::Secant => "Δ > 0: the line crosses the sphere in two points",

@@ -144,7 +144,8 @@ impl StepQuestion {
             Class::Miss => 0,
             Class::Tangent => 1,
             Class::Secant => 2,
-            Class::Nan => return None,
+            Class::Hit if self == Self::Seen => 2,
+            Class::Hit | Class::Nan => return None,
         };
         Some(match self {
             Self::Sign | Self::Count => class,
@@ -165,7 +166,12 @@ pub fn derivation(reading: &Reading, scene: &Scene, rays: &Rays, drawn: &Drawn) 
     let mut steps = ray::steps(reading, subject, scene, rays);
     let mut quadratic = quadratic_steps(&subject.trace);
     // The sign of Δ says how many roots there are before one is worked out.
-    let roots = first_of_roots(&subject.trace);
+    // A routine says so in its own lines.
+    let roots = if subject.trace.method.is_routine() {
+        quadratic.len()
+    } else {
+        first_of_roots(&subject.trace)
+    };
     quadratic.insert(roots, seen::count_step(subject));
     steps.extend(quadratic);
     steps.extend(seen::steps(reading, subject, scene, drawn));
@@ -176,9 +182,9 @@ pub fn derivation(reading: &Reading, scene: &Scene, rays: &Rays, drawn: &Drawn) 
 fn first_of_roots(trace: &Trace) -> usize {
     const ROOTS: [&str; 6] = ["b", "√D", "√Δ", "q", "near₆₄", "near"];
     let steps = &trace.steps;
-    let decides = |step: &trace::TraceStep| is_discriminant(step.symbol, trace.method);
+    let decides = |step: &trace::TraceStep| is_discriminant(&step.symbol, trace.method);
     let from = steps.iter().position(decides).unwrap_or(0);
-    let is_for_roots = |step: &trace::TraceStep| ROOTS.contains(&step.symbol);
+    let is_for_roots = |step: &trace::TraceStep| ROOTS.contains(&&*step.symbol);
     let after = steps[from..].iter().position(is_for_roots);
     after.map_or(steps.len(), |after| from + after)
 }
@@ -248,15 +254,15 @@ fn quadratic_steps(trace: &Trace) -> Vec<Step> {
     let step = |(at, step): (usize, &trace::TraceStep)| Step {
         numbers: step.numbers.clone(),
         result: step.result.text(glyphs),
-        code: step.code.into(),
+        code: step.code.clone().into_owned(),
         exact: exact(&step.result),
         losses: trace.loss_sentences(at, glyphs),
         first_heavy: heavy == Some(at),
-        question: is_discriminant(step.symbol, trace.method).then_some(StepQuestion::Sign),
+        question: is_discriminant(&step.symbol, trace.method).then_some(StepQuestion::Sign),
         // A later stage of `exact` says what it has settled.
         numbers_tell: step.symbol.contains(", "),
         number: step.result.parts().first().cloned(),
-        ..Step::plain(step.symbol, step.why, step.formula)
+        ..Step::plain(&step.symbol, &step.why, &step.formula)
     };
     trace.steps.iter().enumerate().map(step).collect()
 }

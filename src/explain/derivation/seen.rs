@@ -31,16 +31,19 @@ pub(super) fn steps(
 }
 
 pub(super) fn count_step(subject: &Subject) -> Step {
+    if subject.trace.method.is_routine() {
+        return routine_step(subject);
+    }
     let result = match subject.solution.class {
         Class::Miss => "Δ < 0: no point, the line misses",
         Class::Tangent => "Δ = 0: one point, the line touches",
-        Class::Secant => "Δ > 0: two points, the line crosses",
+        Class::Secant | Class::Hit => "Δ > 0: two points, the line crosses",
         Class::Nan => "Δ is not a number: the method has no answer",
     };
     let code = match subject.solution.class {
         Class::Miss => "if discriminant < 0.0 {",
         Class::Tangent => "} else if discriminant == 0.0 {",
-        Class::Secant => "} else if discriminant > 0.0 {",
+        Class::Secant | Class::Hit => "} else if discriminant > 0.0 {",
         Class::Nan => "Self::Nan",
     };
     let discriminant = &subject.trace.discriminant;
@@ -58,12 +61,49 @@ pub(super) fn count_step(subject: &Subject) -> Step {
     }
 }
 
+/// What a routine says, in words.
+fn routine_step(subject: &Subject) -> Step {
+    let solution = &subject.solution;
+    let (class, near, far) = (solution.class, solution.near, solution.far);
+    let result = match class {
+        Class::Miss => "no hit".to_owned(),
+        Class::Tangent => format!("one root: {}", n32(near)),
+        Class::Secant => format!("two roots: {} and {}", n32(near), n32(far)),
+        Class::Hit if near.is_nan() => "a hit".to_owned(),
+        Class::Hit => format!("a hit at {}", n32(near)),
+        Class::Nan => "no number: no answer".to_owned(),
+    };
+    Step {
+        result,
+        losses: subject.trace.verdict(Glyphs::Unicode).into_iter().collect(),
+        question: Some(StepQuestion::Count),
+        code: subject.trace.method.name().to_owned(),
+        ..Step::plain(
+            "verdict",
+            "What came out of the routine.",
+            "what it returned",
+        )
+    }
+}
+
+fn near_given(subject: &Subject) -> bool {
+    !subject.solution.near.is_nan()
+}
+
 fn seen_step(subject: &Subject) -> Step {
     let [near, far] = [subject.solution.near, subject.solution.far].map(n32);
     let (result, code) = match subject.solution.place() {
         Some(Place::Hit) if subject.solution.near == 0.0 => (
             "0 < near, which rounds to 0, a hit: the near point is seen".into(),
             "Place::Hit => Some(self.near),",
+        ),
+        Some(Place::Hit) if !near_given(subject) => (
+            "a hit, at no t that the routine gives".into(),
+            "Place::Hit if self.near.is_nan() => Some(f32::INFINITY),",
+        ),
+        Some(Place::Behind) if subject.solution.class == Class::Hit => (
+            format!("{near} ≤ 0, behind: the ray does not meet it there"),
+            "Self::Behind => None,",
         ),
         Some(Place::Hit) => (
             format!("0 < {near}, a hit: the near point is seen, t = {near}"),
@@ -89,7 +129,8 @@ fn seen_step(subject: &Subject) -> Step {
     let numbers = match subject.solution.class {
         Class::Secant => format!("near = {near}, far = {far}"),
         Class::Tangent => format!("t = {near}"),
-        Class::Miss | Class::Nan => String::new(),
+        Class::Hit if near_given(subject) => format!("t = {near}"),
+        Class::Miss | Class::Nan | Class::Hit => String::new(),
     };
     Step {
         numbers,
@@ -114,7 +155,7 @@ fn measured(v: Vec3, exact: Option<[Surd; 3]>) -> Quantity {
         exact,
     });
     let parts: Vec<_> = parts.collect();
-    Quantity::Vector(Box::new(parts.try_into().expect("three parts")))
+    Quantity::Vector(parts.into())
 }
 
 /// The exact point: p0 + t·d with the exact root; none where the method sees a root that is none.

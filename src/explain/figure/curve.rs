@@ -290,7 +290,7 @@ impl CurvePlot {
         let point = |name, anchor, sign| mark(name, LinePoint::At(anchor), sign, FigureInk::Point);
         let mut marks = vec![point("C", Anchor::Start, Sign::Eye)];
         match section.class {
-            Class::Secant => marks.extend([
+            Class::Secant | Class::Hit => marks.extend([
                 root("B", Anchor::Near),
                 root("B′", Anchor::Far),
                 point("V", Anchor::Foot, Sign::Cross),
@@ -319,7 +319,7 @@ impl CurvePlot {
         }
         let [near, _, far] = times(&self.section);
         let mut ticks = match self.section.class {
-            Class::Secant => vec![(Anchor::Near, near), (Anchor::Far, far)],
+            Class::Secant | Class::Hit => vec![(Anchor::Near, near), (Anchor::Far, far)],
             Class::Tangent => vec![(Anchor::Near, near)],
             Class::Miss | Class::Nan => Vec::new(),
         };
@@ -364,7 +364,7 @@ fn caption(section: &Section, subject: &Subject, t: f64, glyphs: Glyphs) -> Capt
     let [near, foot, far] = times(section);
     let lowest = show(section.power(Anchor::Foot, 0.0));
     match section.class {
-        Class::Secant => {
+        Class::Secant | Class::Hit => {
             caption.add("B", "at", &format!("t = {near}"));
             caption.add("B′", "at", &format!("t = {far}"));
             caption.add("V", "lowest", &format!("f({foot}) = −Δ/4A = {lowest}"));

@@ -17,7 +17,7 @@ pub struct Landmark {
 pub fn landmarks(ray: &Ray, sphere: &Sphere) -> Vec<Landmark> {
     let section = Section::new(ray, sphere);
     let named = match section.class {
-        Class::Secant => vec![
+        Class::Secant | Class::Hit => vec![
             (Anchor::Start, "p0, the start of the ray"),
             (Anchor::Near, "into the sphere"),
             (Anchor::Foot, "closest to the centre"),

@@ -211,7 +211,7 @@ impl Drawing {
         let on = |anchor| Some(self.view.axis.on(&self.section, LinePoint::At(anchor))?.1);
         let end = match self.section.class {
             Class::Miss => self.touching_dot(),
-            Class::Secant => {
+            Class::Secant | Class::Hit => {
                 let root = self.section.visible().unwrap_or(Anchor::Near);
                 on(root).map(|x| (x, base))
             }
@@ -285,7 +285,9 @@ impl Drawing {
         let mut marks = vec![point("p0", LinePoint::At(Anchor::Start), 0.0, Sign::Eye)];
         match section.class {
             Class::Tangent => marks.push(root("B = B′", Anchor::Near)),
-            Class::Secant => marks.extend([root("B", Anchor::Near), root("B′", Anchor::Far)]),
+            Class::Secant | Class::Hit => {
+                marks.extend([root("B", Anchor::Near), root("B′", Anchor::Far)]);
+            }
             Class::Miss | Class::Nan => marks.extend(self.touching_mark()),
         }
         if section.class != Class::Tangent {
@@ -428,7 +430,7 @@ fn caption(
     let mut caption = caption_of(section, subject, glyphs);
     let [near, foot, far] = times(section).map(|t| format!("t = {t}"));
     match section.class {
-        Class::Secant => {
+        Class::Secant | Class::Hit => {
             caption.add("B", "in at", &near);
             caption.add("B′", "out at", &far);
             caption.add("q", "closest to c:", &foot);
@@ -612,7 +614,7 @@ mod tests {
             let marks = drawing.marks(f64::NAN);
             let roots: Vec<_> = marks.iter().filter(|m| m.ink == FigureInk::Root).collect();
             prop_assert_eq!(roots.len(), match drawing.section.class {
-                Class::Secant => 2,
+                Class::Secant | Class::Hit => 2,
                 Class::Tangent => 1,
                 Class::Miss | Class::Nan => 0,
             });

@@ -381,6 +381,7 @@ fn rounding(scene: &Scene, candidate: &ProblemPixel) -> Option<(u32, Exercise)> 
         Class::Miss => "a miss",
         Class::Tangent => "a tangent",
         Class::Secant => "a secant",
+        Class::Hit => "a hit",
         Class::Nan => "no answer",
     };
     let name = match &scene.bodies[body].name {

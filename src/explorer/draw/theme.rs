@@ -145,7 +145,7 @@ impl Theme {
         self.hue(match class {
             Class::Miss => Color::LightBlue,
             Class::Tangent => Color::LightYellow,
-            Class::Secant => Color::LightGreen,
+            Class::Secant | Class::Hit => Color::LightGreen,
             Class::Nan => Color::LightRed,
         })
     }

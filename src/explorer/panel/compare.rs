@@ -7,7 +7,6 @@ use crate::explorer::action::Action;
 use crate::explorer::panel::Panel;
 use crate::explorer::panel::component::{Component, no_spheres, show};
 use crate::explorer::state::{State, turn};
-use crate::method::Method;
 
 #[derive(Debug, Default)]
 pub(crate) struct ComparePanel;
@@ -48,9 +47,10 @@ impl Component for ComparePanel {
 }
 
 fn turn_comparison(state: &mut State) {
-    let next = turn(&Method::ALL, state.other_method(), 1);
+    let methods = state.methods();
+    let next = turn(&methods, state.other_method(), 1);
     let next = if next == state.at.method {
-        turn(&Method::ALL, next, 1)
+        turn(&methods, next, 1)
     } else {
         next
     };

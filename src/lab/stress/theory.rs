@@ -35,6 +35,8 @@ enum DiscriminantForm {
     Lagrange,
     /// Certified: it does not break down.
     Certified,
+    /// Somebody's own: nothing is known of it.
+    Unknown,
 }
 
 impl DiscriminantForm {
@@ -46,6 +48,7 @@ impl DiscriminantForm {
             Method::Haines => Self::Perpendicular,
             Method::Double => Self::Lagrange,
             Method::Exact => Self::Certified,
+            Method::Routine(_) => Self::Unknown,
         }
     }
 }

@@ -166,12 +166,12 @@ impl<'t> Steps<'t> {
 
     fn push(&mut self, line: StepText, result: Quantity, losses: Vec<Loss>) {
         self.list.push(TraceStep {
-            symbol: line.symbol,
-            formula: line.formula,
+            symbol: line.symbol.into(),
+            formula: line.formula.into(),
             numbers: self.fill(line.template),
             result,
-            why: line.why,
-            code: line.code,
+            why: line.why.into(),
+            code: line.code.into(),
             losses,
         });
     }
@@ -220,8 +220,15 @@ impl<'t> Steps<'t> {
         filled + rest
     }
 
+    /// Gives a number a name by which losses speak of it.
+    pub fn rename<F: Float>(&mut self, name: &str, value: Traced<'t, F>) {
+        if let Operand::Entry(entry) = value.operand() {
+            self.names.insert(entry, name.to_owned());
+        }
+    }
+
     /// What was lost on the way from quantities that have a name to these, the worst first.
-    fn losses<F: Float>(&self, values: &[Traced<'t, F>]) -> Vec<Loss> {
+    pub fn losses<F: Float>(&self, values: &[Traced<'t, F>]) -> Vec<Loss> {
         let mut found = Vec::new();
         let mut open: Vec<Operand> = values.iter().map(|v| v.operand()).collect();
         let mut seen = Vec::new();
@@ -274,7 +281,7 @@ impl<'t> Steps<'t> {
             Operand::Entry(place) => {
                 let entry = self.tape.get(place);
                 let value = entry.as_ref().map_or(f64::NAN, |e| e.value);
-                let exact = entry.and_then(|e| e.exact);
+                let exact = entry.and_then(|e| e.exact?.told());
                 let exact = exact.is_some_and(|exact| exact.ulps(value, F::PRECISION) == 0.0);
                 (value, exact, self.names.get(&place))
             }

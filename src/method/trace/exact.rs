@@ -55,15 +55,15 @@ fn discriminant_steps(
     let o_text = format!("({}, {}, {})", text(o[0]), text(o[1]), text(o[2]));
     vec![
         TraceStep {
-            symbol: "o",
-            formula: "p0 − c",
+            symbol: "o".into(),
+            formula: "p0 − c".into(),
             numbers: format!("{p0} − {c}"),
             result: Quantity::Vector(Box::new([0, 1, 2].map(|i| {
                 let exact = Surd::from(exact_o[i].clone());
                 measured(o[i], Some(exact))
             }))),
-            why: "Where the ray starts, seen from the centre.",
-            code: "let o = [p0[0] - center[0], p0[1] - center[1], p0[2] - center[2]];",
+            why: "Where the ray starts, seen from the centre.".into(),
+            code: "let o = [p0[0] - center[0], p0[1] - center[1], p0[2] - center[2]];".into(),
             losses: Vec::new(),
         },
         scalar(
@@ -317,12 +317,12 @@ fn scalar(
     why: &'static str,
 ) -> TraceStep {
     TraceStep {
-        symbol,
-        formula,
+        symbol: symbol.into(),
+        formula: formula.into(),
         numbers,
         result: Quantity::Scalar(result),
-        why,
-        code,
+        why: why.into(),
+        code: code.into(),
         losses: Vec::new(),
     }
 }

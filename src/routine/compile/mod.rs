@@ -1,0 +1,230 @@
+//! From the reader's representation to a program over single numbers: vectors and structures taken apart,
+//! helper functions put in where they are called, operations in the order of the statements.
+
+mod build;
+mod expression;
+mod function;
+mod prune;
+
+use naga::{AddressSpace, Handle, Type};
+
+use super::RoutineError;
+use super::front::Parsed;
+use super::guard::Source;
+use super::program::{Answer, Input, Kind, Program, Slot};
+use super::role::Role;
+use super::signature::{self, Answers, Candidate, NoHit, Shape, Signature};
+use build::{Builder, Constancy, Value};
+use function::{Argument, Variable};
+
+/// The most operations that a run may cost, over all loops.
+pub(super) const MOST_OPERATIONS: u32 = 10_000;
+
+/// Compiles the routine of a module.
+pub(super) fn compile(
+    source: &Source,
+    parsed: &Parsed,
+    contract: bool,
+) -> Result<Program, RoutineError> {
+    let candidate = signature::choose(source, &parsed.module)?;
+    let mut builder = Builder::new(source, parsed, contract);
+    globals(&mut builder)?;
+    let mut inputs = Vec::new();
+    let arguments = arguments(&mut builder, &candidate, &mut inputs)?;
+    let result = builder.call(candidate.function, &arguments, true)?;
+    let answer = answer(&mut builder, &candidate, &arguments, result.as_ref());
+    let signature = Signature {
+        name: candidate.name.clone(),
+        answers: candidate.answers,
+        parameters: parameters(&candidate),
+    };
+    Ok(builder.finish(inputs, answer, signature))
+}
+
+/// Global variables start anew for each ray.
+fn globals(builder: &mut Builder<'_>) -> Result<(), RoutineError> {
+    let module = &builder.parsed.module;
+    for (handle, global) in module.global_variables.iter() {
+        let name = global.name.as_deref().unwrap_or("");
+        // The reader declares what shaders have built in, used or not.
+        if name.starts_with("gl_") {
+            continue;
+        }
+        if global.space != AddressSpace::Private {
+            let at = module.global_variables.get_span(handle).to_range();
+            let problem =
+                format!("{name} comes from outside, and a routine gets a ray and a sphere alone");
+            return Err(builder
+                .source
+                .error(at.map_or(0, |range| range.start), problem));
+        }
+        let slots = builder.fresh_of(global.ty)?;
+        let variable = builder.variable(slots, true);
+        if let Some(init) = global.init {
+            let value = builder.global_value(init)?;
+            builder.put(variable, 0, &value);
+        }
+        builder.globals.insert(handle, variable);
+    }
+    Ok(())
+}
+
+/// The parameters as values and variables, and which number of the question goes where.
+fn arguments(
+    builder: &mut Builder<'_>,
+    candidate: &Candidate,
+    inputs: &mut Vec<(Input, Slot)>,
+) -> Result<Vec<Argument>, RoutineError> {
+    let module = &builder.parsed.module;
+    let function = &module.functions[candidate.function];
+    let mut arguments = Vec::new();
+    for ((argument, parts), out) in function
+        .arguments
+        .iter()
+        .zip(&candidate.given)
+        .zip(&candidate.out)
+    {
+        let ty = base(module, argument.ty);
+        let slots = builder.fresh_of(ty)?;
+        if *out {
+            let variable = builder.variable(slots, true);
+            arguments.push(Argument::Variable(Variable::whole(builder, variable)));
+            continue;
+        }
+        let mut at = 0;
+        for (leaf, role) in parts {
+            let count = match leaf.shape {
+                Shape::Real(n) => usize::from(n),
+                Shape::Bool | Shape::Int => 1,
+            };
+            if let Some(role) = role {
+                for (axis, slot) in slots[at..at + count].iter().enumerate() {
+                    inputs.extend(input(*role, axis as u8).map(|input| (input, *slot)));
+                }
+            }
+            at += count;
+        }
+        arguments.push(Argument::Value(Value {
+            slots,
+            constancy: Constancy::Never,
+            of: None,
+        }));
+    }
+    Ok(arguments)
+}
+
+pub(super) fn base(module: &naga::Module, ty: Handle<Type>) -> Handle<Type> {
+    match module.types[ty].inner {
+        naga::TypeInner::Pointer { base, .. } => base,
+        _ => ty,
+    }
+}
+
+fn input(role: Role, axis: u8) -> Option<Input> {
+    Some(match role {
+        Role::Origin => Input::Origin(axis),
+        Role::FromCenter => Input::FromCenter(axis),
+        Role::Direction => Input::Direction(axis),
+        Role::Radius => Input::Radius,
+        Role::RadiusSquared => Input::RadiusSquared,
+        Role::Sphere if axis == 3 => Input::Radius,
+        Role::Center | Role::Sphere => Input::Center(axis),
+        Role::Least => Input::Least,
+        Role::Most => Input::Most,
+        Role::Near | Role::Far | Role::Other => return None,
+    })
+}
+
+fn parameters(candidate: &Candidate) -> Vec<(String, Role)> {
+    let mut roots = [Role::Near, Role::Far].into_iter();
+    let parts = candidate.given.iter().flatten();
+    parts
+        .map(|(leaf, role)| {
+            let role = role.unwrap_or_else(|| match leaf.shape {
+                Shape::Real(1) => roots.next().unwrap_or(Role::Other),
+                _ => Role::Other,
+            });
+            (leaf.name.clone(), role)
+        })
+        .collect()
+}
+
+/// Where the answer lies.
+fn answer(
+    builder: &mut Builder<'_>,
+    candidate: &Candidate,
+    arguments: &[Argument],
+    result: Option<&Value>,
+) -> Answer {
+    let mut answer = Answer {
+        found: None,
+        count: None,
+        roots: Vec::new(),
+        constant: None,
+        no_hit: NoHit::Nothing,
+    };
+    let mut take = |shape: Shape, slots: &[Slot]| match shape {
+        Shape::Bool => answer.found = answer.found.or(Some(slots[0])),
+        Shape::Int => answer.count = answer.count.or(Some(slots[0])),
+        Shape::Real(1 | 2) => answer.roots.extend(slots),
+        Shape::Real(_) => {}
+    };
+    if let Some(result) = result {
+        let mut at = 0;
+        for leaf in &candidate.result {
+            let count = width(leaf.shape);
+            take(leaf.shape, &result.slots[at..at + count]);
+            at += count;
+        }
+    }
+    for (argument, parts) in arguments.iter().zip(&candidate.given) {
+        let Argument::Variable(variable) = argument else {
+            continue;
+        };
+        let mut at = 0;
+        for (leaf, _) in parts {
+            let count = width(leaf.shape);
+            if leaf.shape != Shape::Bool || answer_has_no_bool(candidate) {
+                take(leaf.shape, &variable.slots(builder)[at..at + count]);
+            }
+            at += count;
+        }
+    }
+    answer.roots.truncate(2);
+    let negative = builder.source.said("no hit").is_some_and(|(_, said)| {
+        said.contains("< 0") || said.contains("negative") || said.contains("below 0")
+    });
+    answer.no_hit = match (&answer, result.map(|value| value.constancy)) {
+        (Answer { found: Some(_), .. } | Answer { count: Some(_), .. }, _) => NoHit::Said,
+        _ if negative => NoHit::Negative,
+        (_, Some(Constancy::Flag(flag))) => {
+            answer.constant = Some(flag);
+            NoHit::Constant
+        }
+        _ => NoHit::Nothing,
+    };
+    if candidate.answers == Answers::Visible {
+        answer.roots.truncate(1);
+    }
+    answer
+}
+
+fn answer_has_no_bool(candidate: &Candidate) -> bool {
+    !candidate
+        .result
+        .iter()
+        .any(|leaf| leaf.shape == Shape::Bool)
+}
+
+const fn width(shape: Shape) -> usize {
+    match shape {
+        Shape::Real(n) => n as usize,
+        Shape::Bool | Shape::Int => 1,
+    }
+}
+
+impl Slot {
+    pub(super) const fn new(kind: Kind, at: u16) -> Self {
+        Self { kind, at }
+    }
+}
