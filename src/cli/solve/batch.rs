@@ -212,12 +212,37 @@ fn push_answers(
         class, near, far, ..
     } = solution;
     write!(text, ",{}", class.name())?;
-    if class == Class::Miss {
-        text.extend_from_slice(b",,");
-    } else {
-        let [near, far] = [near, far].map(|t| format::binary32(t, Glyphs::Ascii));
-        write!(text, ",{near},{far}")?;
+    // A routine that says no more than that it hits gives one root, or none.
+    let is_given = |t: f32| class != Class::Miss && (class != Class::Hit || !t.is_nan());
+    for t in [near, far] {
+        text.push(b',');
+        if is_given(t) {
+            write!(text, "{}", format::binary32(t, Glyphs::Ascii))?;
+        }
     }
+    if method.is_routine() {
+        text.extend_from_slice(b",,,,");
+    } else {
+        push_coefficients(text, method, ray, sphere)?;
+    }
+    if let Some([from, to]) = between {
+        text.push(b',');
+        if let Some(t) = solution
+            .visible_between(from, to)
+            .filter(|t| t.is_finite() || class != Class::Hit)
+        {
+            write!(text, "{}", format::binary32(t, Glyphs::Ascii))?;
+        }
+    }
+    Ok(())
+}
+
+fn push_coefficients(
+    text: &mut Vec<u8>,
+    method: Method,
+    ray: &Ray,
+    sphere: &Sphere,
+) -> io::Result<()> {
     let k = method.coefficients(ray, sphere);
     for value in [k.a, k.b, k.c, k.discriminant] {
         let (precision, glyphs) = (k.precision, Glyphs::Ascii);
@@ -227,12 +252,6 @@ fn push_answers(
             glyphs,
         };
         write!(text, ",{number}")?;
-    }
-    if let Some([from, to]) = between {
-        text.push(b',');
-        if let Some(t) = solution.visible_between(from, to) {
-            write!(text, "{}", format::binary32(t, Glyphs::Ascii))?;
-        }
     }
     Ok(())
 }

@@ -31,10 +31,10 @@ struct SolveJson<'a> {
     place: Option<&'static str>,
     visible: Option<NumberJson>,
     precision: &'static str,
-    a: NumberJson,
-    b: NumberJson,
-    c: NumberJson,
-    discriminant: NumberJson,
+    a: Option<NumberJson>,
+    b: Option<NumberJson>,
+    c: Option<NumberJson>,
+    discriminant: Option<NumberJson>,
     errors: ErrorsJson,
     truth: AnswerJson,
     verdict: Option<String>,
@@ -44,6 +44,8 @@ struct SolveJson<'a> {
 impl<'a> SolveJson<'a> {
     fn new(ray: &Ray, sphere: &Sphere, trace: &'a Trace) -> Self {
         let solution = trace.solution;
+        // A routine has no coefficients of these names.
+        let named = |measured: &'a Measured| (!trace.method.is_routine()).then_some(measured);
         let AnswerJson { class, near, far } = AnswerJson::new(solution);
         Self {
             ray: RayOut {
@@ -61,15 +63,15 @@ impl<'a> SolveJson<'a> {
             place: solution.place().map(Place::name),
             visible: solution.visible().map(NumberJson::binary32),
             precision: precision(trace.a.precision),
-            a: NumberJson::of(&trace.a),
-            b: NumberJson::of(&trace.b),
-            c: NumberJson::of(&trace.c),
-            discriminant: NumberJson::of(&trace.discriminant),
+            a: named(&trace.a).map(NumberJson::of),
+            b: named(&trace.b).map(NumberJson::of),
+            c: named(&trace.c).map(NumberJson::of),
+            discriminant: named(&trace.discriminant).map(NumberJson::of),
             errors: ErrorsJson {
-                a: ErrorJson::of(&trace.a),
-                b: ErrorJson::of(&trace.b),
-                c: ErrorJson::of(&trace.c),
-                discriminant: ErrorJson::of(&trace.discriminant),
+                a: named(&trace.a).map(ErrorJson::of),
+                b: named(&trace.b).map(ErrorJson::of),
+                c: named(&trace.c).map(ErrorJson::of),
+                discriminant: named(&trace.discriminant).map(ErrorJson::of),
                 near: trace.near.as_ref().map(ErrorJson::of),
                 far: trace.far.as_ref().map(ErrorJson::of),
             },
@@ -94,10 +96,10 @@ struct SphereOut {
 
 #[derive(Serialize)]
 struct ErrorsJson {
-    a: ErrorJson,
-    b: ErrorJson,
-    c: ErrorJson,
-    discriminant: ErrorJson,
+    a: Option<ErrorJson>,
+    b: Option<ErrorJson>,
+    c: Option<ErrorJson>,
+    discriminant: Option<ErrorJson>,
     near: Option<ErrorJson>,
     far: Option<ErrorJson>,
 }
@@ -111,7 +113,12 @@ struct AnswerJson {
 
 impl AnswerJson {
     fn new(solution: Solution) -> Self {
-        let root = |t| (solution.class != Class::Miss).then(|| NumberJson::binary32(t));
+        let is_given = |t: f32| match solution.class {
+            Class::Miss => false,
+            Class::Hit => !t.is_nan(),
+            _ => true,
+        };
+        let root = |t| is_given(t).then(|| NumberJson::binary32(t));
         Self {
             class: solution.class.name(),
             near: root(solution.near),

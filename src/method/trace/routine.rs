@@ -145,6 +145,9 @@ impl<'t> Scribe<'_, 't> {
             [one] => insert(name.to_owned(), one.clone()),
             many => {
                 insert(name.to_owned(), format!("({})", many.join(", ")));
+                if let [x, y, z, _] = many {
+                    insert(format!("{name}.xyz"), format!("({x}, {y}, {z})"));
+                }
                 let axes = ["x", "y", "z", "w"].into_iter().chain(["r", "g", "b", "a"]);
                 for (axis, text) in axes.zip(many.iter().chain(many)) {
                     insert(format!("{name}.{axis}"), text.clone());
