@@ -55,8 +55,10 @@ pub(super) enum Operation {
     Neg,
     Sqrt,
     MulAdd,
+    #[cfg(feature = "routine")]
     /// To the nearest number of fewer bits.
     Narrow,
+    #[cfg(feature = "routine")]
     /// To a whole number.
     Whole,
 }
@@ -76,6 +78,7 @@ impl Tape {
         self.push(None, Vec::new(), value, exactly(value))
     }
 
+    #[cfg(feature = "routine")]
     /// A number that is rounded, or chosen, in a way of its own.
     pub fn rounded<F: Float>(&self, operation: Operation, of: Operand, value: F) -> Traced<'_, F> {
         let exact = match operation {
@@ -151,11 +154,13 @@ impl<F: Float> Traced<'_, F> {
         }
     }
 
+    #[cfg(feature = "routine")]
     /// The same number with another sign of zero.
     pub fn with(self, value: F) -> Self {
         Self { value, ..self }
     }
 
+    #[cfg(feature = "routine")]
     /// A whole number near this one: what it would be without rounding is another question.
     pub fn whole(self, value: F) -> Self {
         match self.place {
@@ -190,6 +195,7 @@ impl<F: Float> Traced<'_, F> {
     }
 }
 
+#[cfg(feature = "routine")]
 impl<'t> Traced<'t, f32> {
     /// The same number with more bits.
     pub fn as_wide(self) -> Traced<'t, f64> {
@@ -200,6 +206,7 @@ impl<'t> Traced<'t, f32> {
     }
 }
 
+#[cfg(feature = "routine")]
 impl<'t> Traced<'t, f64> {
     /// The nearest number of fewer bits.
     pub fn narrowed(self) -> Traced<'t, f32> {

@@ -220,6 +220,7 @@ impl<'t> Steps<'t> {
         filled + rest
     }
 
+    #[cfg(feature = "routine")]
     /// Gives a number a name by which losses speak of it.
     pub fn rename<F: Float>(&mut self, name: &str, value: Traced<'t, F>) {
         if let Operand::Entry(entry) = value.operand() {

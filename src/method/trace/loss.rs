@@ -203,6 +203,7 @@ fn local_result(operation: Operation, operands: &[LossOperand]) -> Option<Surd> 
         (Operation::Div, [x, y]) => x.checked_div(y),
         (Operation::Neg, [x]) => Some(-x.clone()),
         (Operation::Sqrt, [x]) => x.checked_sqrt(),
+        #[cfg(feature = "routine")]
         (Operation::Narrow, [x]) => Some(x.clone()),
         (Operation::MulAdd, [x, y, z]) => x.checked_mul(y)?.checked_add(z),
         _ => None,
