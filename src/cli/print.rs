@@ -99,7 +99,10 @@ fn screen_as_svg(arguments: &Print) -> Result<String, Failure> {
     };
     let wanted = arguments.size.or(scene.pixels);
     let (cols, rows) = explorer::screen_for(wanted.map(|size| style.cells_of(size)));
-    let mut settings = vec![Setting::Style(style), Setting::Method(arguments.method.method()?)];
+    let mut settings = vec![
+        Setting::Style(style),
+        Setting::Method(arguments.method.method()?),
+    ];
     settings.extend(arguments.view.map(Setting::View));
     settings.extend(arguments.pixel.map(|(x, y)| Setting::Cursor(x, y)));
     if arguments.steps {
