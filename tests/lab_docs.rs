@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use std::fs;
 
 use rayscope::lab::bench::{self, BenchPlan, Benchmark, MeasuredMethod, MeasuredSet, Sample};
+use rayscope::lab::chart::ChartAxes;
 use rayscope::lab::stress;
 use rayscope::lab::timing::{Clock, Schedule};
 use rayscope::lab::{Dial, Family, Machine, plot};
@@ -46,7 +47,13 @@ impl Clock for NoClock {
 fn quick_bench() -> Benchmark {
     let plan = BenchPlan {
         methods: &Method::ALL,
-        schedule: Schedule { rounds: 1, seed: 1 },
+        // Times are not looked at.
+        schedule: Schedule {
+            rounds: 1,
+            passes: 1,
+            unseen: 64,
+            seed: 1,
+        },
     };
     let sample = |family| Sample::of_family(family, 1, 2048);
     let samples: Vec<Sample> = Family::ALL.iter().map(sample).collect();
@@ -81,7 +88,7 @@ fn the_errors_in_the_docs_are_those_of_the_code_and_their_chart_is_well_formed()
     let all: String = report.sets.iter().map(details).collect();
     assert_documented(path, "errors", &format!("{all}\n"));
 
-    let svg = plot::work_precision(&report, &Machine::detect());
+    let svg = plot::work_precision(&report, &Machine::detect(), ChartAxes::default());
     assert_well_formed(&svg);
     for set in &report.sets {
         assert!(svg.contains(&format!(">{}, 2048 rays<", set.name)));

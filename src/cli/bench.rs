@@ -2,6 +2,7 @@
 
 use std::ffi::OsString;
 use std::io;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use clap::Args;
@@ -10,10 +11,12 @@ use super::failure::{DONE, INVALID};
 use super::progress::{INTERRUPTED, Progress};
 use super::sweep::SweepArgs;
 use super::unseen::UnseenTerminal;
-use super::{Failure, Outcome, complain, save, whole, write_out};
-use crate::lab::bench::{self, BenchPlan, Benchmark, MOST_TIMED, Sample};
+use super::{Failure, Outcome, choice, complain, save, whole, write_out};
+use crate::door::{Expected, shown};
+use crate::lab::bench::{self, BenchPlan, Benchmark, Earlier, Extras, MOST_TIMED, Sample};
+use crate::lab::chart::{ChartAxes, ErrorAxis, TimeAxis};
 use crate::lab::frames::{self, FrameSchedule};
-use crate::lab::timing::{Schedule, SelfCheck, SystemClock};
+use crate::lab::timing::{Schedule, SelfCheck, SystemClock, UNSEEN};
 use crate::lab::{BenchLock, BenchQueue, Family, Machine, plot};
 use crate::method::Method;
 use crate::render::{CELL_ASPECT, Style, fit};
@@ -22,6 +25,7 @@ use crate::scene::{Rays, Scene};
 
 /// Measure the methods: wrong answers, errors in ulp, nanoseconds
 #[derive(Debug, Args)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a flag of its own")]
 pub(super) struct BenchArgs {
     #[command(flatten)]
     sweep: SweepArgs,
@@ -50,6 +54,22 @@ pub(super) struct BenchArgs {
     #[arg(long)]
     brief: bool,
 
+    /// JSON: with each repeat of each method
+    #[arg(long)]
+    samples: bool,
+
+    /// Name what differs from an earlier report in JSON by more than the noise of both
+    #[arg(long, value_name = "OLD.json", conflicts_with = "frames")]
+    against: Option<PathBuf>,
+
+    /// The chart: which error lies along it
+    #[arg(long, value_name = "ERROR", requires = "plot", value_parser = choice(&ErrorAxis::ALL, ErrorAxis::name), default_value = ErrorAxis::P99.name())]
+    x: ErrorAxis,
+
+    /// The chart: which time lies up it
+    #[arg(long, value_name = "TIME", requires = "plot", value_parser = choice(&TimeAxis::ALL, TimeAxis::name), default_value = TimeAxis::Single.name())]
+    y: TimeAxis,
+
     /// Exit with status 1 if a self-check of the timing fails
     #[arg(long)]
     strict: bool,
@@ -71,6 +91,17 @@ pub(super) fn run(arguments: &BenchArgs) -> Outcome {
             "--brief: only the text report lists inputs; expected --format text beside it",
         ));
     }
+    if arguments.samples && arguments.sweep.format != Format::Json {
+        return Err(Failure::misused(
+            "--samples: only JSON has them; expected --format json beside it",
+        ));
+    }
+    if arguments.against.is_some() && arguments.sweep.format == Format::Csv {
+        return Err(Failure::misused(
+            "--against: a table has no place for differences; expected --format text, markdown or json",
+        ));
+    }
+    let earlier = arguments.against.as_deref().map(earlier).transpose()?;
     let samples = samples(arguments)?;
     let methods = arguments.sweep.methods()?;
     let mut progress = Progress::new("bench", samples.len())?;
@@ -89,10 +120,20 @@ pub(super) fn run(arguments: &BenchArgs) -> Outcome {
     drop(lock);
     progress.clear();
     let machine = Machine::detect();
+    let axes = ChartAxes {
+        x: arguments.x,
+        y: arguments.y,
+    };
     let drawn = save(arguments.sweep.plot.as_deref(), || {
-        plot::work_precision(&measured, &machine)
+        plot::work_precision(&measured, &machine, axes)
     });
-    write_out(&in_format(&measured, &machine, arguments))?;
+    let differences = earlier.map(|earlier| bench::differences(&measured, &machine.cpu, &earlier));
+    write_out(&in_format(
+        &measured,
+        &machine,
+        arguments,
+        differences.as_deref(),
+    ))?;
     drawn?;
     Ok(if progress.interrupted() {
         INTERRUPTED
@@ -163,6 +204,8 @@ fn plan<'a>(arguments: &BenchArgs, methods: &'a [Method]) -> BenchPlan<'a> {
         methods,
         schedule: Schedule {
             rounds: if arguments.sweep.quick { 15 } else { 101 },
+            passes: if arguments.sweep.quick { 2 } else { 8 },
+            unseen: UNSEEN,
             seed: arguments.sweep.seed,
         },
     }
@@ -183,20 +226,47 @@ fn samples(arguments: &BenchArgs) -> Result<Vec<Sample>, Failure> {
             most,
         )]);
     }
-    let chosen: Vec<&Family> = if arguments.family.is_empty() {
+    let chosen: Vec<&'static Family> = if arguments.family.is_empty() {
         Family::ALL.iter().collect()
     } else {
         arguments.family.clone()
     };
-    let sample = |family: &Family| Sample::of_family(family, arguments.sweep.seed, rays);
+    let sample = |family: &'static Family| Sample::of_family(family, arguments.sweep.seed, rays);
     Ok(chosen.into_iter().map(sample).collect())
 }
 
-fn in_format(measured: &Benchmark, machine: &Machine, arguments: &BenchArgs) -> String {
+/// An earlier report, for `--against`.
+fn earlier(path: &Path) -> Result<Earlier, Failure> {
+    let text = EARLIER
+        .text(path)
+        .map_err(|e| Failure::invalid(format_args!("cannot read {e}")))?;
+    let parsed = Earlier::parse(&text);
+    parsed.map_err(|reason| Failure::invalid(format_args!("{}: {reason}", shown(path))))
+}
+
+/// All families with their samples are a few megabytes.
+const EARLIER: Expected = Expected {
+    what: "a report of rayscope bench in JSON",
+    most: 64 << 20,
+};
+
+fn in_format(
+    measured: &Benchmark,
+    machine: &Machine,
+    arguments: &BenchArgs,
+    against: Option<&[String]>,
+) -> String {
     match arguments.sweep.format {
-        Format::Text => bench::text(measured, machine, !arguments.brief).text(),
-        Format::Markdown => bench::markdown(measured, machine).markdown(),
+        Format::Text => bench::text(measured, machine, !arguments.brief, against).text(),
+        Format::Markdown => bench::markdown(measured, machine, against).markdown(),
         Format::Csv => bench::records(measured, machine).csv(),
-        Format::Json => bench::json(measured, machine),
+        Format::Json => bench::json(
+            measured,
+            machine,
+            Extras {
+                samples: arguments.samples,
+                against,
+            },
+        ),
     }
 }

@@ -148,7 +148,8 @@ fn text(arguments: &Print) -> Result<String, Failure> {
             } else {
                 panel(&reading)
             };
-            let text = format!("{}\n{text}", title(&reading, size));
+            let acne = acne_line(&scene, &rays, method, view, (x, y));
+            let text = format!("{}\n{acne}{text}", title(&reading, size));
             Ok(capability.glyphs.spell(&text))
         }
         Some((x, y)) => {
@@ -179,6 +180,19 @@ fn title(reading: &Reading, size: Size) -> String {
     let Size { width, height } = size;
     let ((x, y), method) = (reading.pixel, reading.method);
     format!("ray at ({x}, {y}) of {width} by {height} pixels, method {method}")
+}
+
+/// What the view `acne` says of a pixel, on a line; nothing in other views.
+fn acne_line(scene: &Scene, rays: &Rays, method: Method, view: View, (x, y): (u32, u32)) -> String {
+    if view != View::Acne {
+        return String::new();
+    }
+    let mut frame = Frame::new();
+    frame.render(scene, rays, method, view);
+    match frame.acne(scene, x, y) {
+        Some(acne) => format!("{}\n", explain::acne_words(&acne)),
+        None => "no point is seen here\n".to_owned(),
+    }
 }
 
 /// What the side panel of the explorer shows for a pixel.

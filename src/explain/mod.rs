@@ -4,6 +4,7 @@
 //! out as lines of text with roles; the explorer colours them, `print --pixel` writes them as
 //! they are.
 
+mod acne;
 mod compare;
 mod derivation;
 mod figure;
@@ -22,6 +23,7 @@ use crate::geometry::{Ray, Sphere};
 use crate::method::{Class, Coefficients, Method, Place, Solution, Trace};
 use crate::scene::{Body, Scene};
 
+pub use acne::acne_words;
 pub use compare::{comparison, measured_bits};
 pub use derivation::{Drawn, Step, StepQuestion, derivation};
 pub use figure::{FigureInk, Float, Landmark, bits, curve, landmarks, slice, turning, work};

@@ -1,7 +1,9 @@
 //! Charts as numbers: what lies where. `lab::plot` draws them as SVG, `explain::figure` in characters.
 
-use super::bench::MeasuredSet;
+use super::bench::text::wrong_by_kind;
+use super::bench::{MeasuredMethod, MeasuredSet, Pareto};
 use super::stress::Sweep;
+use super::timing::{Times, Timing};
 
 /// The values at the two ends of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,33 +35,146 @@ impl Scale {
 /// The bits of a binary32: the most that can be lost.
 pub const BITS: Scale = Scale::new(0.0, 24.0);
 
+/// Which error a work–precision chart has along it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ErrorAxis {
+    /// The median.
+    P50,
+    /// The 99th percentile.
+    #[default]
+    P99,
+    /// The largest found.
+    Largest,
+    /// The share of wrong answers of any kind.
+    Wrong,
+}
+
+impl ErrorAxis {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::P50, Self::P99, Self::Largest, Self::Wrong];
+
+    /// The name on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::P50 => "p50",
+            Self::P99 => "p99",
+            Self::Largest => "largest",
+            Self::Wrong => "wrong",
+        }
+    }
+
+    /// What is written at the axis.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::P50 => "half of the errors are below, ulp",
+            Self::P99 => "99 % of the errors are below, ulp",
+            Self::Largest => "largest error found, ulp",
+            Self::Wrong => "wrong answers of any kind, %",
+        }
+    }
+}
+
+/// Which time it has up the other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum TimeAxis {
+    /// One call after the other, rays not seen before.
+    #[default]
+    Single,
+    /// In arrays.
+    Array,
+    /// In a chain: each waits for the last.
+    Latency,
+}
+
+impl TimeAxis {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Single, Self::Array, Self::Latency];
+
+    /// The name on the command line.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Single => "single",
+            Self::Array => "array",
+            Self::Latency => "latency",
+        }
+    }
+
+    /// What is written at the axis.
+    pub const fn title(self) -> &'static str {
+        match self {
+            Self::Single => "ns a solve, unseen rays",
+            Self::Array => "ns a solve, in arrays",
+            Self::Latency => "ns a solve, in a chain",
+        }
+    }
+
+    const fn of(self, times: &Times) -> &Timing {
+        match self {
+            Self::Single => &times.unseen,
+            Self::Array => &times.batch,
+            Self::Latency => &times.latency,
+        }
+    }
+}
+
+/// The two axes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct ChartAxes {
+    /// Along.
+    pub x: ErrorAxis,
+    /// Up.
+    pub y: TimeAxis,
+}
+
 /// A method where error lies along run time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WorkPoint {
     /// The name of the method.
     pub method: &'static str,
-    /// log₂ of the 99th percentile of the error in ulp; none where no answer is right.
+    /// log₂ of the error in ulp, or the wrong answers in per cent; none where no answer is right.
     pub error: Option<f64>,
     /// log₂ of the median time of one solve in nanoseconds.
     pub time: f64,
-    /// How many answers are wrong.
-    pub wrong: usize,
-    /// Whether no other method beats it.
+    /// log₂ of the first quartile and of the third.
+    pub spread: [f64; 2],
+    /// How many answers have a wrong hit or miss, a wrong count, or are no number.
+    pub wrong: [usize; 3],
+    /// Whether no other method beats it in what is charted first, p99 and unseen rays.
     pub is_best: bool,
 }
 
-/// The methods of a set, in the order of the report.
-pub fn work_points(set: &MeasuredSet) -> Vec<WorkPoint> {
+/// The methods of a set that were timed, in the order of the report.
+pub fn work_points(set: &MeasuredSet, axes: ChartAxes) -> Vec<WorkPoint> {
     // Errors below an eighth of an ulp look like none, and there are no times of a thousand seconds.
-    let error = |ulps: f64| ulps.log2().clamp(-3.0, 120.0);
-    let point = |row: &super::bench::MeasuredMethod| WorkPoint {
-        method: row.method,
-        error: (row.errors.judged > 0).then(|| error(row.errors.ulp.p99)),
-        time: row.times.throughput.median.log2().clamp(-3.0, 40.0),
-        wrong: row.errors.wrong.total(),
-        is_best: row.pareto,
+    let log_error = |ulps: f64| ulps.log2().clamp(-3.0, 120.0);
+    let log_time = |ns: f64| ns.log2().clamp(-3.0, 40.0);
+    let point = |row: &MeasuredMethod| {
+        let timing = axes.y.of(row.times.as_ref()?);
+        let wrong = wrong_by_kind(&row.errors.wrong).map(|(count, _)| count);
+        let ulp = &row.errors.ulp;
+        let ulps = match axes.x {
+            ErrorAxis::P50 => ulp.p50,
+            ErrorAxis::P99 => ulp.p99,
+            ErrorAxis::Largest => ulp.max,
+            ErrorAxis::Wrong => 0.0,
+        };
+        let error = match axes.x {
+            ErrorAxis::Wrong => {
+                let all = set.census.rays.max(1) as f64;
+                Some(100.0 * wrong.iter().sum::<usize>() as f64 / all)
+            }
+            _ => (row.errors.judged > 0).then(|| log_error(ulps)),
+        };
+        Some(WorkPoint {
+            method: row.method,
+            error,
+            time: log_time(timing.ns.median),
+            spread: timing.range.map(log_time),
+            wrong,
+            is_best: row.pareto == Pareto::Best && axes == ChartAxes::default(),
+        })
     };
-    set.rows.iter().map(point).collect()
+    set.rows.iter().filter_map(point).collect()
 }
 
 /// The methods that no other beats, from the least error on: the Pareto line.
@@ -120,7 +235,8 @@ mod tests {
             method,
             error,
             time,
-            wrong: 0,
+            spread: [time; 2],
+            wrong: [0; 3],
             is_best,
         };
         let points = [

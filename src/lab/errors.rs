@@ -3,7 +3,7 @@
 
 use std::ops::AddAssign;
 
-use serde::Serialize;
+use serde::ser::{Serialize, SerializeStruct as _, Serializer};
 
 use super::Problem;
 use super::reference::{Reference, ReferenceRoot};
@@ -125,7 +125,7 @@ fn judge_root(root: &ReferenceRoot, answer: f32) -> Result<Option<RootError>, Fa
 }
 
 /// Numbers of rays, by what is wrong with the answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct FaultCounts {
     /// Of the rays that miss: those said to meet the sphere.
     pub false_hit: usize,
@@ -148,9 +148,26 @@ impl FaultCounts {
         }
     }
 
+    /// The number of rays whose hit or miss is wrong: what the tutorial's rule would draw wrongly.
+    pub const fn hit_or_miss(&self) -> usize {
+        self.false_hit + self.false_miss
+    }
+
     /// The number of rays with any fault.
     pub const fn total(&self) -> usize {
         self.false_hit + self.false_miss + self.wrong_count + self.not_finite
+    }
+}
+
+impl Serialize for FaultCounts {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut fields = serializer.serialize_struct("FaultCounts", 5)?;
+        fields.serialize_field("false_hit", &self.false_hit)?;
+        fields.serialize_field("false_miss", &self.false_miss)?;
+        fields.serialize_field("wrong_count", &self.wrong_count)?;
+        fields.serialize_field("not_finite", &self.not_finite)?;
+        fields.serialize_field("hit_or_miss", &self.hit_or_miss())?;
+        fields.end()
     }
 }
 
@@ -166,7 +183,7 @@ impl AddAssign<Fault> for FaultCounts {
 }
 
 /// Percentiles of the error in ulps, by nearest rank; all 0 for an empty set.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
 pub struct Percentiles {
     /// Half of the errors are at most this.
     pub p50: f64,
@@ -198,7 +215,7 @@ pub(super) fn nearest_rank(sorted: &[f64], part: usize, whole: usize) -> f64 {
 }
 
 /// How many rays of a set do what, by the truth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
 pub struct Census {
     /// All rays.
     pub rays: usize,

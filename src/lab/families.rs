@@ -18,7 +18,50 @@ pub struct Family {
     pub name: &'static str,
     /// One sentence on what its rays are.
     pub about: &'static str,
+    /// What kind of rays these are, for those who want to know which method suits it.
+    pub kind: RayKind,
     draw: fn(&mut Random) -> DrawnCase,
+}
+
+/// What families have in common.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RayKind {
+    /// Near spheres of ordinary size, from outside or inside, d of length 1.
+    Near,
+    /// The same with a d that is not, or not quite.
+    Unnormalised,
+    /// Far away for their size.
+    Far,
+    /// All but tangents, and tangents.
+    Touching,
+    /// From on or just above the surface, as a second ray starts.
+    Surface,
+    /// Sizes and bits of every sort.
+    Any,
+}
+
+impl RayKind {
+    /// All kinds, the everyday ones first.
+    pub const ALL: [Self; 6] = [
+        Self::Near,
+        Self::Unnormalised,
+        Self::Far,
+        Self::Touching,
+        Self::Surface,
+        Self::Any,
+    ];
+
+    /// The words for it.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Near => "near",
+            Self::Unnormalised => "d not 1 long",
+            Self::Far => "far or tiny",
+            Self::Touching => "touching",
+            Self::Surface => "from a surface",
+            Self::Any => "any bits",
+        }
+    }
 }
 
 /// A ray and a sphere before they are rounded to binary32.
@@ -53,41 +96,46 @@ impl DrawnCase {
 }
 
 macro_rules! families {
-    ($($name:literal $draw:ident $about:literal;)*) => {
+    ($($name:literal $kind:ident $draw:ident $about:literal;)*) => {
         /// All families, the everyday ones first.
-        pub const ALL: &'static [Self] = &[$(Self { name: $name, about: $about, draw: $draw }),*];
+        pub const ALL: &'static [Self] = &[$(Self {
+            name: $name,
+            about: $about,
+            kind: RayKind::$kind,
+            draw: $draw,
+        }),*];
     };
 }
 
 impl Family {
     families! {
-        "typical" typical "A few radii away, aimed near the edge: about two of three hit.";
-        "inside" inside "From inside the sphere.";
-        "end-minus-start" end_minus_start "From one point towards another: d is the difference of the two, rounded.";
-        "near-unit" near_unit "Typical rays with d of length 1 but for a few ulps in each coordinate.";
-        "far-4e3" far_4e3 "4000 radii away: r² has all but vanished from |o|² in binary32.";
-        "far-1e6" far_1e6 "A million radii away.";
-        "grazing" grazing "The line's distance from the centre is r to within one part in 10⁷.";
-        "tangent" tangent "Exact tangents in whole numbers.";
-        "tangent-ulp" tangent_ulp "Exact tangents with one coordinate moved by one ulp.";
-        "tangent-wide" tangent_wide "Exact tangents of exponents far apart, some tilted by the least subnormal.";
-        "surface" surface "From the surface, up to the rounding of the origin.";
-        "surface-exact" surface_exact "From the surface exactly, in whole numbers: C = 0.";
-        "own-hit" own_hit "From the point where textbook saw a typical ray hit, in any direction: a second ray.";
-        "ground" ground "From eye height and below, over a sphere of radius 10⁶.";
-        "huge-radius" huge_radius "Radii from 10⁶ to 10³⁰ times the distance to the surface.";
-        "tiny-radius" tiny_radius "Radii down to 10⁻³⁰ of the distance.";
-        "point" point "Spheres of radius 0, most of them hit or missed by a hair.";
-        "offset" offset "Everything 10⁶ to 10⁷ away from the world's origin.";
-        "integers" integers "Small whole numbers, of every class.";
-        "ties" ties "Roots half way between two binary32, or next to it.";
-        "scaled-direction" scaled_direction "Typical rays with d of lengths from 2⁻¹⁴⁰ to 2¹²⁰.";
-        "scaled" scaled "Typical rays, all of it scaled by 2^±100.";
-        "overflow" overflow "Coordinates and roots near the end of the range and past it.";
-        "subnormal" subnormal "Subnormal coordinates and roots.";
-        "log-uniform" log_uniform "Each coordinate of any magnitude from 10⁻⁸ to 10⁸.";
-        "bits" bits "Any finite bits.";
-        "sparse-bits" sparse_bits "Few bits set or all, exponents near each other.";
+        "typical" Near typical "A few radii away, aimed near the edge: about two of three hit.";
+        "inside" Near inside "From inside the sphere.";
+        "end-minus-start" Unnormalised end_minus_start "From one point towards another: d is the difference of the two, rounded.";
+        "near-unit" Unnormalised near_unit "Typical rays with d of length 1 but for a few ulps in each coordinate.";
+        "far-4e3" Far far_4e3 "4000 radii away: r² has all but vanished from |o|² in binary32.";
+        "far-1e6" Far far_1e6 "A million radii away.";
+        "grazing" Touching grazing "The line's distance from the centre is r to within one part in 10⁷.";
+        "tangent" Touching tangent "Exact tangents in whole numbers.";
+        "tangent-ulp" Touching tangent_ulp "Exact tangents with one coordinate moved by one ulp.";
+        "tangent-wide" Touching tangent_wide "Exact tangents of exponents far apart, some tilted by the least subnormal.";
+        "surface" Surface surface "From the surface, up to the rounding of the origin.";
+        "surface-exact" Surface surface_exact "From the surface exactly, in whole numbers: C = 0.";
+        "own-hit" Surface own_hit "From the point where textbook saw a typical ray hit, in any direction: a second ray.";
+        "ground" Surface ground "From eye height and below, over a sphere of radius 10⁶.";
+        "huge-radius" Surface huge_radius "Radii from 10⁶ to 10³⁰ times the distance to the surface.";
+        "tiny-radius" Far tiny_radius "Radii down to 10⁻³⁰ of the distance.";
+        "point" Touching point "Spheres of radius 0, most of them hit or missed by a hair.";
+        "offset" Near offset "Everything 10⁶ to 10⁷ away from the world's origin.";
+        "integers" Any integers "Small whole numbers, of every class.";
+        "ties" Any ties "Roots half way between two binary32, or next to it.";
+        "scaled-direction" Unnormalised scaled_direction "Typical rays with d of lengths from 2⁻¹⁴⁰ to 2¹²⁰.";
+        "scaled" Any scaled "Typical rays, all of it scaled by 2^±100.";
+        "overflow" Any overflow "Coordinates and roots near the end of the range and past it.";
+        "subnormal" Any subnormal "Subnormal coordinates and roots.";
+        "log-uniform" Any log_uniform "Each coordinate of any magnitude from 10⁻⁸ to 10⁸.";
+        "bits" Any bits "Any finite bits.";
+        "sparse-bits" Any sparse_bits "Few bits set or all, exponents near each other.";
     }
 
     /// The family of that name.

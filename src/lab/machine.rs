@@ -51,6 +51,15 @@ impl Machine {
     }
 }
 
+/// How many programs want to run for each thread that can, over the last minute; none where the system
+/// does not say.
+pub(super) fn load() -> Option<f64> {
+    let text = fs::read_to_string("/proc/loadavg").ok()?;
+    let load: f64 = text.split(' ').next()?.parse().ok()?;
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    Some(load / threads as f64)
+}
+
 /// The first model name that Linux lists.
 fn cpu() -> Option<String> {
     let list = fs::read_to_string("/proc/cpuinfo").ok()?;

@@ -16,6 +16,7 @@ pub mod picture;
 pub mod plot;
 pub mod promise;
 mod reference;
+mod second;
 pub mod stress;
 pub mod timing;
 mod turn;
@@ -29,6 +30,7 @@ pub use errors::{
 pub use families::Family;
 pub use machine::Machine;
 pub use reference::{Reference, ReferenceRoot};
+pub use second::{Clearance, SecondRays};
 pub use turn::Turn;
 
 use crate::geometry::{Ray, Sphere};

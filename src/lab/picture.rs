@@ -6,7 +6,7 @@ use std::time::Duration;
 use super::bench::{self, BenchPlan, Benchmark, MOST_TIMED, Sample};
 use super::bench_lock::{BenchQueue, BenchWait};
 use super::errors::{Fault, FaultCounts, Percentiles};
-use super::timing::{Schedule, SystemClock};
+use super::timing::{Schedule, SystemClock, UNSEEN};
 use crate::method::{Method, root_bits_lost};
 use crate::render::{Allowance, Contact, Frame, Hit, View};
 use crate::scene::{Rays, Scene};
@@ -218,6 +218,8 @@ pub fn chart(
         methods: &Method::ALL,
         schedule: Schedule {
             rounds: ROUNDS,
+            passes: 2,
+            unseen: UNSEEN,
             seed: SEED,
         },
     };

@@ -11,7 +11,7 @@ use super::errors::nearest_rank;
 use super::numbers;
 use crate::geometry::{Ray, Sphere};
 use crate::method::batch::{Batch, Solutions};
-use crate::method::{Class, Method, Solution};
+use crate::method::{Class, Method, Solution, simd};
 use crate::random::Random;
 
 /// Where times come from; a test brings a clock of its own.
@@ -106,6 +106,12 @@ impl<F: Fn(&Ray, &Sphere) -> Solution> Routine for Of<F> {
     }
 }
 
+/// Whether a method runs here as it is meant to: what stands for fused operations where the processor has
+/// none takes many times as long.
+pub fn is_timed(method: Method) -> bool {
+    method != Method::Contracted || simd::has_fma()
+}
+
 /// The routine of a method.
 pub fn routine(method: Method) -> Box<dyn Routine> {
     macro_rules! of {
@@ -171,65 +177,157 @@ pub struct Nanoseconds {
     pub iqr: f64,
 }
 
-impl Nanoseconds {
-    fn of(mut repeats: Vec<f64>) -> Self {
-        repeats.sort_by(f64::total_cmp);
-        let quartile = |n| nearest_rank(&repeats, n, 4);
+/// The times of one routine in one way of asking.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Timing {
+    /// All repeats in brief.
+    pub ns: Nanoseconds,
+    /// The first quartile and the third: the range that two routines are told apart by.
+    pub range: [f64; 2],
+    /// The median over the repeats of the time over that of the first routine in the same round.
+    pub ratio: f64,
+    /// Each repeat, in the order in which it was taken.
+    pub samples: Vec<f64>,
+}
+
+impl Timing {
+    /// The times of these repeats, beside those of the first routine.
+    pub fn of(samples: Vec<f64>, first: &[f64]) -> Self {
+        let ratio = median_ratio(&samples, first);
+        let mut sorted = samples.clone();
+        sorted.sort_by(f64::total_cmp);
+        let [first, median, third] = [1, 2, 3].map(|n| nearest_rank(&sorted, n, 4));
         Self {
-            median: quartile(2),
-            min: repeats.first().copied().unwrap_or(0.0),
-            iqr: quartile(3) - quartile(1),
+            ns: Nanoseconds {
+                median,
+                min: sorted.first().copied().unwrap_or(0.0),
+                iqr: third - first,
+            },
+            range: [first, third],
+            ratio,
+            samples,
         }
+    }
+
+    /// Whether the ranges of two routines lie apart.
+    pub fn is_told_apart_from(&self, other: &Self) -> bool {
+        self.range[1] < other.range[0] || other.range[1] < self.range[0]
     }
 }
 
-/// The times of one routine, and how they compare with the first routine's in the same rounds.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+/// The times of one routine, in each way of asking.
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Times {
-    /// Independent rays, one call after the other: time over number.
-    pub throughput: Nanoseconds,
-    /// Independent rays in arrays, answered at once: time over number.
-    pub batch: Nanoseconds,
-    /// Each ray waits for the answer before it.
-    pub latency: Nanoseconds,
-    /// The median over the rounds of throughput time over that of the first routine.
-    pub throughput_ratio: f64,
-    /// The same in arrays.
-    pub batch_ratio: f64,
-    /// The same of latency.
-    pub latency_ratio: f64,
+    /// Independent rays that were not seen before, one call after the other: time over number.
+    pub unseen: Timing,
+    /// The same for a few rays that are asked again and again, so that the processor learns what comes.
+    pub learned: Timing,
+    /// Independent rays in arrays, answered at once, again and again.
+    pub batch: Timing,
+    /// Each ray waits for the answer before it, again and again.
+    pub latency: Timing,
 }
 
 /// How a run is timed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Schedule {
-    /// How often each routine goes over all rays in each of the three ways.
+    /// How often each routine goes over the rays that are asked again and again.
     pub rounds: usize,
+    /// How often it goes over the rays that it shall not know.
+    pub passes: usize,
+    /// How many these are, at least.
+    pub unseen: usize,
     /// What the order of the routines in each round is drawn from.
     pub seed: u64,
 }
 
-/// Times each routine on the same rays: in every round all of them, in an order drawn anew. Two
-/// rounds are run before the first that counts.
+/// So many rays no branch predictor remembers; two thousand it does.
+pub const UNSEEN: usize = 1 << 17;
+
+/// What a routine is timed on.
+#[derive(Debug, Clone, Copy)]
+pub struct TimedRays<'a> {
+    /// Different rays, of which none comes again before all others.
+    pub unseen: &'a [Problem],
+    /// Few, that are asked again and again.
+    pub replayed: &'a [Problem],
+}
+
+/// What a run took.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct TimedRun {
+    /// For each routine, in their order.
+    pub times: Vec<Times>,
+    /// A second copy of the first routine, timed among the others on the same unseen rays.
+    pub copy: Timing,
+    /// Into how many parts the unseen rays were cut: so many samples are one pass.
+    pub parts: usize,
+}
+
+/// Times each routine on the same rays: in every round all of them, in an order that is drawn for each
+/// round. Two rounds are run before the first that counts.
 ///
 /// `go_on` is asked before each round; none if it said no.
 pub fn time(
     routines: &[&dyn Routine],
-    problems: &[Problem],
+    rays: TimedRays<'_>,
     schedule: Schedule,
     clock: &dyn Clock,
     mut go_on: impl FnMut() -> bool,
-) -> Option<Vec<Times>> {
+) -> Option<TimedRun> {
+    let mut random = Random::new(schedule.seed);
+    let replayed = time_replayed(
+        routines,
+        rays.replayed,
+        schedule.rounds,
+        (&mut random, clock),
+        &mut go_on,
+    )?;
+    let (unseen, parts) = time_unseen(
+        routines,
+        rays.unseen,
+        schedule.passes,
+        (&mut random, clock),
+        &mut go_on,
+    )?;
+    let ways = |i: usize| {
+        let [learned, batch, latency] =
+            [0, 1, 2].map(|way: usize| Timing::of(replayed[i][way].clone(), &replayed[0][way]));
+        Times {
+            unseen: Timing::of(unseen[i].clone(), &unseen[0]),
+            learned,
+            batch,
+            latency,
+        }
+    };
+    Some(TimedRun {
+        times: (0..routines.len()).map(ways).collect(),
+        copy: Timing::of(unseen[routines.len()].clone(), &unseen[0]),
+        parts,
+    })
+}
+
+/// One call after the other, in arrays and in a chain, on rays that are asked again and again.
+fn time_replayed(
+    routines: &[&dyn Routine],
+    problems: &[Problem],
+    rounds: usize,
+    (random, clock): (&mut Random, &dyn Clock),
+    go_on: &mut dyn FnMut() -> bool,
+) -> Option<Vec<[Vec<f64>; 3]>> {
     let mut stand = Stand::new(problems, clock);
     let mut order: Vec<usize> = (0..routines.len()).collect();
-    let mut random = Random::new(schedule.seed);
     let mut taken = vec![[const { Vec::new() }; 3]; routines.len()];
-    for round in 0..WARM_UP + schedule.rounds {
+    for round in 0..WARM_UP + rounds {
         if !go_on() {
             return None;
         }
-        shuffle(&mut order, &mut random);
+        shuffle(&mut order, random);
         for &i in &order {
+            // What others left in the branch predictor must not count: these rays are to be known.
+            for _ in 0..LESSONS {
+                routines[i].solve_all(black_box(problems), &mut stand.answers);
+            }
             let times = [
                 stand.throughput(routines[i], 1),
                 stand.batch(routines[i]),
@@ -242,34 +340,66 @@ pub fn time(
             }
         }
     }
-    Some(summarise(&taken))
+    Some(taken)
 }
+
+/// One call after the other, on rays that come again only after all others: part by part, all routines on
+/// one part before the next. Last comes a second copy of the first routine, which is half of all rays
+/// ahead, so that neither teaches the processor what the other will meet.
+fn time_unseen(
+    routines: &[&dyn Routine],
+    problems: &[Problem],
+    passes: usize,
+    (random, clock): (&mut Random, &dyn Clock),
+    go_on: &mut dyn FnMut() -> bool,
+) -> Option<(Vec<Vec<f64>>, usize)> {
+    let parts = (problems.len() / LEAST_PART).clamp(1, PARTS);
+    let size = problems.len().div_ceil(parts).max(1);
+    let mut stands: Vec<Stand> = problems
+        .chunks(size)
+        .map(|p| Stand::new(p, clock))
+        .collect();
+    let copy = routines.len();
+    let mut order: Vec<usize> = (0..=copy).collect();
+    let mut taken = vec![Vec::new(); order.len()];
+    for _ in 0..passes {
+        for part in 0..stands.len() {
+            if !go_on() {
+                return None;
+            }
+            let ahead = (part + stands.len() / 2) % stands.len();
+            // Rays that are not in the cache yet would be the first routine's loss.
+            for at in [part, ahead] {
+                stands[at].throughput(&empty, 1);
+            }
+            shuffle(&mut order, random);
+            for &i in &order {
+                let (routine, at) = match routines.get(i) {
+                    Some(routine) => (*routine, part),
+                    None => (routines[0], ahead),
+                };
+                taken[i].push(stands[at].throughput(routine, 1));
+            }
+        }
+    }
+    Some((taken, stands.len()))
+}
+
+/// How often the rays that are to be known are gone over before each time that counts.
+const LESSONS: usize = 4;
 
 /// Rounds before the first that counts.
 const WARM_UP: usize = 2;
+
+/// The unseen rays are timed in so many parts, each of so many rays at least.
+const PARTS: usize = 16;
+const LEAST_PART: usize = 64;
 
 /// Fisher and Yates.
 fn shuffle(order: &mut [usize], random: &mut Random) {
     for i in (1..order.len()).rev() {
         order.swap(i, random.below(i as u64 + 1) as usize);
     }
-}
-
-fn summarise(taken: &[[Vec<f64>; 3]]) -> Vec<Times> {
-    let first = &taken[0];
-    let times = taken.iter().map(|taken| {
-        let [throughput, batch, latency] = taken.clone().map(Nanoseconds::of);
-        let ratio = |way: usize| median_ratio(&taken[way], &first[way]);
-        Times {
-            throughput,
-            batch,
-            latency,
-            throughput_ratio: ratio(0),
-            batch_ratio: ratio(1),
-            latency_ratio: ratio(2),
-        }
-    });
-    times.collect()
 }
 
 fn median_ratio(times: &[f64], first: &[f64]) -> f64 {
@@ -354,10 +484,81 @@ impl SelfCheck {
         }
     }
 
+    /// What the samples of many runs say of themselves: how far repeats lie apart, whether the last are like
+    /// the first, and whether two copies of one routine take the same time. Each is told by a value that nine
+    /// of ten keep below.
+    pub fn of_samples(runs: &[&TimedRun]) -> [Self; 3] {
+        let all = || {
+            runs.iter()
+                .flat_map(|run| run.times.iter().map(move |t| (run, &t.unseen)))
+        };
+        let spread = all().map(|(_, timing)| timing.ns.iqr / timing.ns.median);
+        let drift = all().map(|(run, timing)| {
+            let part = run.parts.min(timing.samples.len() / 2);
+            let (first, last) = (
+                &timing.samples[..part],
+                timing.samples.rchunks(part.max(1)).next(),
+            );
+            apart(median(first), median(last.unwrap_or_default()))
+        });
+        let copies = runs.iter().filter_map(|run| {
+            let first = run.times.first()?;
+            Some(apart(run.copy.ns.median, first.unseen.ns.median))
+        });
+        [
+            Self::new("spread of repeats", most(spread), [0.0, 0.25]),
+            Self::new("first pass / last pass", most(drift), [1.0, 1.15]),
+            Self::new("two copies of one method", most(copies), [1.0, 1.06]),
+        ]
+    }
+
+    /// How busy the host was before the run, where it says so: programs that want to run for each thread.
+    pub fn load(load: f64) -> Self {
+        Self::new("host load for each thread", load, [0.0, 0.5])
+    }
+
+    /// Why times are not to be trusted, as a sentence; none if the check passed.
+    pub fn complaint(&self) -> Option<String> {
+        let Self {
+            name,
+            ratio,
+            least,
+            most,
+            passed,
+        } = self;
+        let expected = if *least == 0.0 {
+            format!("up to {most}")
+        } else {
+            format!("{least} to {most}")
+        };
+        (!passed).then(|| format!("{name} {ratio:.2}, expected {expected}"))
+    }
+
     /// Whether nobody else on this host was measuring.
     pub fn alone(alone: bool) -> Self {
         Self::new("alone on this host", f64::from(u8::from(alone)), [1.0, 1.0])
     }
+}
+
+/// How many times one is the other, whichever is more.
+fn apart(one: f64, other: f64) -> f64 {
+    (one / other).max(other / one)
+}
+
+fn median(values: &[f64]) -> f64 {
+    let mut values = values.to_vec();
+    values.sort_by(f64::total_cmp);
+    nearest_rank(&values, 1, 2)
+}
+
+/// What nine of ten values do not exceed; NaN if one is no number.
+fn most(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    if values.iter().any(|x| x.is_nan()) {
+        return f64::NAN;
+    }
+    values.sort_by(f64::total_cmp);
+    nearest_rank(&values, 9, 10)
 }
 
 /// Checks the clock and the loops on a routine: an empty one must take next to no time, two runs
@@ -460,8 +661,22 @@ mod tests {
     }
 
     fn problems() -> Vec<Problem> {
-        Family::ALL[0].sample(1, 64)
+        Family::ALL[0].sample(1, 1000)
     }
+
+    fn rays(problems: &[Problem]) -> TimedRays<'_> {
+        TimedRays {
+            unseen: problems,
+            replayed: &problems[..64],
+        }
+    }
+
+    const SCHEDULE: Schedule = Schedule {
+        rounds: 9,
+        passes: 3,
+        unseen: 1000,
+        seed: 3,
+    };
 
     fn passed(checks: &[SelfCheck]) -> Vec<bool> {
         checks.iter().map(|check| check.passed).collect()
@@ -472,37 +687,104 @@ mod tests {
         let clock = Workshop::default();
         let slow = Worker(clock.clone(), [20, 8, 60]);
         let quick = Worker(clock.clone(), [5, 2, 30]);
-        let schedule = Schedule { rounds: 9, seed: 3 };
-        let times = time(&[&slow, &quick], &problems(), schedule, &clock, || true).unwrap();
-        let of = |t: &Times| [t.throughput, t.batch, t.latency].map(|ns| [ns.median, ns.min]);
-        assert_eq!(of(&times[0]), [[20.0; 2], [8.0; 2], [60.0; 2]]);
-        assert_eq!(of(&times[1]), [[5.0; 2], [2.0; 2], [30.0; 2]]);
-        let t = &times[1];
-        let ratios = [t.throughput_ratio, t.batch_ratio, t.latency_ratio];
-        assert_eq!(ratios, [0.25, 0.25, 0.5]);
-        assert_eq!(times[1].throughput.iqr, 0.0);
+        let problems = problems();
+        let run = time(&[&slow, &quick], rays(&problems), SCHEDULE, &clock, || true).unwrap();
+        let ways = |t: &Times| [&t.unseen, &t.learned, &t.batch, &t.latency].map(Timing::clone);
+        let of = |t: &Times| ways(t).map(|t| [t.ns.median, t.ns.min]);
+        assert_eq!(
+            of(&run.times[0]),
+            [[20.0; 2], [20.0; 2], [8.0; 2], [60.0; 2]]
+        );
+        assert_eq!(of(&run.times[1]), [[5.0; 2], [5.0; 2], [2.0; 2], [30.0; 2]]);
+        assert_eq!(
+            ways(&run.times[1]).map(|t| t.ratio),
+            [0.25, 0.25, 0.25, 0.5]
+        );
+        assert_eq!(run.times[1].unseen.ns.iqr, 0.0);
+        // 1000 rays in 15 parts, three times over; nine rounds.
+        let samples = ways(&run.times[1]).map(|t| t.samples.len());
+        assert_eq!((run.parts, samples), (15, [45, 9, 9, 9]));
+        assert_eq!(run.copy.ns.median, 20.0);
+        let checks = SelfCheck::of_samples(&[&run]);
+        assert_eq!(passed(&checks), [true; 3]);
+    }
+
+    /// Takes longer each time, and nothing for the empty routine.
+    struct Tiring(Workshop, Cell<u64>);
+
+    impl Routine for Tiring {
+        fn solve_all(&self, problems: &[Problem], _: &mut [Solution]) {
+            let Self(Workshop(now), each) = self;
+            each.set(each.get() + 1);
+            now.set(now.get() + each.get() * problems.len() as u64);
+        }
+        fn solve_arrays(&self, _: &Arrays, _: &mut Solutions) {}
+        fn solve_chain(&self, _: &[Problem]) -> u32 {
+            0
+        }
+    }
+
+    #[test]
+    fn trust_is_earned_by_the_samples() {
+        let problems = problems();
+        let clock = Workshop::default();
+        let tiring = Tiring(clock.clone(), Cell::new(100));
+        let run = time(&[&tiring], rays(&problems), SCHEDULE, &clock, || true).unwrap();
+        let [spread, drift, copies] = SelfCheck::of_samples(&[&run]);
+        assert!(!drift.passed, "{drift:?}");
+        assert!(spread.ratio > 0.1 && copies.ratio < 1.06);
+        assert!(drift.complaint().unwrap().contains("expected 1 to 1.15"));
+        // One way of asking that takes much longer now and then; and a copy that is another method.
+        let timing = |samples: &[f64]| Timing::of(samples.to_vec(), samples);
+        let run = |unseen: &[f64], copy: &[f64]| TimedRun {
+            times: vec![Times {
+                unseen: timing(unseen),
+                ..Times::default()
+            }],
+            copy: timing(copy),
+            parts: 2,
+        };
+        let uneven = run(&[1.0, 2.0, 1.0, 2.0], &[1.0, 2.0, 1.0, 2.0]);
+        assert_eq!(
+            passed(&SelfCheck::of_samples(&[&uneven])),
+            [false, true, true]
+        );
+        let unlike = run(&[1.0; 4], &[1.1; 4]);
+        assert_eq!(
+            passed(&SelfCheck::of_samples(&[&unlike])),
+            [true, true, false]
+        );
+        let frozen = run(&[0.0; 4], &[0.0; 4]);
+        assert_eq!(passed(&SelfCheck::of_samples(&[&frozen])), [false; 3]);
+        assert!(!SelfCheck::load(4.0).passed && SelfCheck::load(0.2).passed);
+    }
+
+    #[test]
+    fn ranges_that_overlap_are_not_told_apart() {
+        let timing = |samples: [f64; 4]| Timing::of(samples.into(), &samples);
+        let [low, high] = [timing([1.0, 2.0, 3.0, 4.0]), timing([5.0, 6.0, 7.0, 8.0])];
+        let middle = timing([2.0, 3.0, 5.0, 7.0]);
+        assert!(low.is_told_apart_from(&high) && high.is_told_apart_from(&low));
+        assert!(!low.is_told_apart_from(&middle) && !middle.is_told_apart_from(&high));
     }
 
     #[test]
     fn spread_is_that_of_the_repeats() {
-        let ns = Nanoseconds::of([8.0, 1.0, 5.0, 2.0, 7.0, 3.0, 6.0, 4.0].into());
+        let samples = [8.0, 1.0, 5.0, 2.0, 7.0, 3.0, 6.0, 4.0];
+        let Timing { ns, range, .. } = Timing::of(samples.into(), &samples);
         assert_eq!([ns.median, ns.min, ns.iqr], [4.0, 1.0, 4.0]);
+        assert_eq!(range, [2.0, 6.0]);
     }
 
     #[test]
     fn a_run_that_is_told_to_stop_has_no_times() {
         let mut rounds = 0;
-        let schedule = Schedule { rounds: 9, seed: 3 };
-        let stopped = time(
-            &[&empty],
-            &problems(),
-            schedule,
-            &SystemClock::new(),
-            || {
-                rounds += 1;
-                rounds < 4
-            },
-        );
+        let problems = problems();
+        let clock = SystemClock::new();
+        let stopped = time(&[&empty], rays(&problems), SCHEDULE, &clock, || {
+            rounds += 1;
+            rounds < 4
+        });
         assert_eq!((stopped, rounds), (None, 4));
     }
 

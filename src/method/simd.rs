@@ -19,6 +19,15 @@ pub fn is_wide() -> bool {
     false
 }
 
+/// Whether this processor fuses a product and a sum: all of a kind do, but those of x86.
+pub fn has_fma() -> bool {
+    if cfg!(target_arch = "x86_64") {
+        is_wide()
+    } else {
+        cfg!(target_arch = "aarch64")
+    }
+}
+
 /// Runs the kernel, with AVX2 and FMA where the processor has it.
 pub fn dispatch(kernel: impl Kernel) {
     #[cfg(target_arch = "x86_64")]

@@ -32,7 +32,7 @@ pub(super) fn finish(
 ) {
     let is_certified = plan.way() == Strategy::Certified;
     match plan.view() {
-        View::Depth if is_certified => {
+        View::Depth | View::Acne if is_certified => {
             round_roots(scope, &mut found.layer, part, &mut plan.counts);
         }
         View::Shade if is_certified => simd::dispatch(Shading {

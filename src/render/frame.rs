@@ -8,6 +8,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use glam::Vec3;
 
 use super::View;
+use super::acne::Acne;
 use super::allowance::Allowance;
 use super::bounds::Bounds;
 use super::field::Field;
@@ -413,6 +414,19 @@ impl Frame {
     pub fn stage(&self, x: u32, y: u32) -> Option<Stage> {
         let place = self.value(View::Stage, x, y)?;
         Stage::ALL.get(place as usize).copied()
+    }
+
+    /// Where the computed point at pixel (x, y) lies and what a mirrored ray from there meets; nothing where
+    /// nothing is seen, and in other views.
+    pub fn acne(&self, scene: &Scene, x: u32, y: u32) -> Option<Acne> {
+        if self.view() != View::Acne {
+            return None;
+        }
+        let i = self.index(x, y)?;
+        let Hit { body, t } = self.hit(scene, x, y)?;
+        let place = self.found.layer.contact(i).place();
+        let sphere = &scene.bodies.get(body as usize)?.sphere;
+        Acne::of(self.plan.method(), &self.field.ray(i), sphere, (t, place))
     }
 
     /// The unit normal at pixel (x, y) on the side that is seen, along the axes of the screen:

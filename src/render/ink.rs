@@ -6,7 +6,7 @@ use super::color::color_of;
 use super::delta::FARTHEST_MISS;
 use super::look::Look;
 use super::ramp::Ramps;
-use super::{ColorDepth, Contact, Frame, Lost, Style, View};
+use super::{Acne, ColorDepth, Contact, Frame, Lost, Style, View};
 use crate::method::exact::Stage;
 use crate::scene::{Rgb, Scene};
 
@@ -93,6 +93,7 @@ pub(super) fn ink(
         View::Delta => delta(frame, x, y),
         View::Lost => lost(frame, x, y),
         View::Stage => stage(frame, x, y),
+        View::Acne => acne(frame, scene, x, y),
     }?;
     Some(Ink {
         glyph: tone.glyph,
@@ -284,6 +285,26 @@ fn stage(frame: &Frame, x: u32, y: u32) -> Option<Tone> {
         level,
         quarters,
         rarity: 0,
+        base,
+    })
+}
+
+fn acne(frame: &Frame, scene: &Scene, x: u32, y: u32) -> Option<Tone> {
+    let Acne { height, self_hit } = frame.acne(scene, x, y)?;
+    let (glyph, level, quarters, rarity, base) = if self_hit.is_some() {
+        ('*', 1.0, FULL, 1, YELLOW)
+    } else if height < 0.0 {
+        ('i', 0.55, LEFT, 0, VERMILION)
+    } else if height > 0.0 {
+        ('o', 0.45, RIGHT, 0, BLUE)
+    } else {
+        ('=', 0.35, RIGHT, 0, WHITE)
+    };
+    Some(Tone {
+        glyph,
+        level,
+        quarters,
+        rarity,
         base,
     })
 }

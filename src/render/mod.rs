@@ -8,6 +8,7 @@
     reason = "a formula in lanes vectorises only if all of it is in one place"
 )]
 
+mod acne;
 mod allowance;
 mod bounds;
 mod color;
@@ -31,6 +32,7 @@ mod style;
 mod view;
 mod windows;
 
+pub use acne::{Acne, height};
 pub use allowance::Allowance;
 pub use color::{AnsiColor, ColorDepth, color_of, xterm};
 pub use frame::{Frame, Hit, Lost};

@@ -22,11 +22,14 @@ pub enum View {
     Lost,
     /// Which stage of `exact` settled the pixel, whatever the method.
     Stage,
+    /// On which side of the sphere the computed point lies, and whether a mirrored ray from there meets the
+    /// sphere again.
+    Acne,
 }
 
 impl View {
     /// All views, in the order in which lists show them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Shade,
         Self::Class,
         Self::Outline,
@@ -35,6 +38,7 @@ impl View {
         Self::Delta,
         Self::Lost,
         Self::Stage,
+        Self::Acne,
     ];
 
     /// The name on the command line and on the screen.
@@ -48,6 +52,7 @@ impl View {
             Self::Delta => "delta",
             Self::Lost => "lost",
             Self::Stage => "stage",
+            Self::Acne => "acne",
         }
     }
 
@@ -110,6 +115,12 @@ impl View {
                 ". binary64, u unrounded, c compensated, w whole, d double-double, i integer"
             }
             (Self::Stage, _) => "the brighter, the later the stage that settled it",
+            (Self::Acne, Style::Ascii) => {
+                "point inside i, outside o, on =; * a mirrored ray meets its own sphere; ? no answer"
+            }
+            (Self::Acne, _) => {
+                "bright: a mirrored ray meets its own sphere; dim: its point is inside or outside"
+            }
         }
     }
 
@@ -126,7 +137,7 @@ impl View {
 
     /// Whether the visible roots themselves are shown, or numbers that depend on their last bits.
     pub const fn shows_roots(self) -> bool {
-        matches!(self, Self::Depth)
+        matches!(self, Self::Depth | Self::Acne)
     }
 
     /// Whether pixels differ by how bright they are, and not only by what they are.

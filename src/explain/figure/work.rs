@@ -13,9 +13,10 @@
 
 use super::canvas::{Canvas, Dash, Dot, FigureInk};
 use crate::explain::{Line, Role};
-use crate::lab::bench::text::{brief, settled_by};
+use crate::lab::bench::text::{brief, settled_by, wrong_by_kind};
 use crate::lab::bench::{MeasuredMethod, MeasuredSet};
-use crate::lab::chart::{Scale, WorkPoint, best, work_points};
+use crate::lab::chart::{ChartAxes, Scale, WorkPoint, best, work_points};
+use crate::lab::timing::Times;
 use crate::text::Glyphs;
 
 /// The lowest chart that says more than its table.
@@ -29,6 +30,10 @@ pub fn work(set: &MeasuredSet, cols: usize, rows: usize, glyphs: Glyphs) -> Vec<
     let mut table = table(set, cols);
     if rows > table.len() + AMPLE_ROWS {
         table.extend(stages(set, cols));
+        let legend = "wrong %: hit-or-miss/count, + some that are no number";
+        if legend.len() <= cols {
+            table.push(Line::of(Role::Faint, legend));
+        }
     }
     let room = rows.saturating_sub(table.len());
     if room < LEAST_ROWS || cols < 24 {
@@ -45,6 +50,23 @@ fn letter(method: &str) -> char {
         "contracted" => 'o',
         _ => method.chars().next().unwrap_or('?'),
     }
+}
+
+/// The rates of wrong hits or misses and of wrong counts, with a + where there are answers that are no number;
+/// one where all are right. In seven characters at most.
+fn wrong_rates(wrong: [usize; 3], rays: usize) -> String {
+    let [hit_or_miss, count, none] = wrong;
+    if wrong == [0; 3] {
+        return "0".into();
+    }
+    let more = if none > 0 { "+" } else { "" };
+    let [h, c] = [hit_or_miss, count].map(|wrong| wrong_rate(wrong, rays));
+    let text = format!("{h}/{c}{more}");
+    if text.len() <= 7 {
+        return text;
+    }
+    let [h, c] = [hit_or_miss, count].map(|wrong| 100 * wrong / rays.max(1));
+    format!("{h}/{c}{more}")
 }
 
 /// Wrong answers in per cent, in few characters, none of them a rounded 0 or 100.
@@ -72,6 +94,13 @@ fn p99(row: &MeasuredMethod) -> String {
     }
 }
 
+/// A time of a method; a dash where it was not timed.
+fn of_times(row: &MeasuredMethod, time: fn(&Times) -> f64) -> String {
+    row.times
+        .as_ref()
+        .map_or_else(|| "–".into(), |times| brief(time(times)))
+}
+
 /// A column of the table: its heading, its width with the blank before it, what it says.
 struct PanelColumn {
     heading: &'static str,
@@ -89,22 +118,22 @@ const COLUMNS: [PanelColumn; 7] = [
     PanelColumn {
         heading: "ns",
         width: 6,
-        cell: |row| brief(row.times.throughput.median),
+        cell: |row| of_times(row, |times| times.unseen.ns.median),
     },
     PanelColumn {
         heading: "ratio",
         width: 6,
-        cell: |row| brief(row.times.throughput_ratio),
+        cell: |row| of_times(row, |times| times.unseen.ratio),
     },
     PanelColumn {
         heading: "arrays",
         width: 7,
-        cell: |row| brief(row.times.batch.median),
+        cell: |row| of_times(row, |times| times.batch.ns.median),
     },
     PanelColumn {
         heading: "latency",
         width: 8,
-        cell: |row| brief(row.times.latency.median),
+        cell: |row| of_times(row, |times| times.latency.ns.median),
     },
     PanelColumn {
         heading: "p50",
@@ -140,8 +169,9 @@ fn table(set: &MeasuredSet, cols: usize) -> Vec<Line> {
     let heading = format!("   {:10}{:>7}{headings}", "method", "wrong %");
     let mut lines = vec![Line::of(Role::Faint, heading)];
     for row in &set.rows {
-        let mark = if row.pareto { '*' } else { ' ' };
-        let rate = wrong_rate(row.errors.wrong.total(), set.census.rays);
+        let mark = row.pareto.mark();
+        let wrong = wrong_by_kind(&row.errors.wrong).map(|(count, _)| count);
+        let rate = wrong_rates(wrong, set.census.rays);
         let role = if rate == "0" {
             Role::Value
         } else {
@@ -151,8 +181,8 @@ fn table(set: &MeasuredSet, cols: usize) -> Vec<Line> {
         let line = Line::new(0)
             .with(Role::Plain, mark)
             .with(Role::Label, letter(row.method))
-            .with(Role::Plain, format!(" {:9}", row.method))
-            .with(role, format!("{rate:>8}"))
+            .with(Role::Plain, format!(" {:10}", row.method))
+            .with(role, format!("{rate:>7}"))
             .with(Role::Value, numbers);
         lines.push(line);
     }
@@ -184,7 +214,7 @@ fn scales(points: &[WorkPoint]) -> [Scale; 2] {
 }
 
 /// The columns that the rightmost point leaves for its label.
-const LABEL_ROOM: usize = 6;
+const LABEL_ROOM: usize = 9;
 
 /// The sheet of the chart, and where its axes cross.
 struct CharacterChart {
@@ -217,7 +247,7 @@ impl CharacterChart {
 
 fn chart(set: &MeasuredSet, cols: usize, rows: usize, glyphs: Glyphs) -> Vec<Line> {
     let left = 5;
-    let points = work_points(set);
+    let points = work_points(set, ChartAxes::default());
     let [x, y] = scales(&points);
     let mut chart = CharacterChart {
         canvas: Canvas::new(cols, rows, glyphs),
@@ -348,10 +378,10 @@ impl CharacterChart {
 
 /// The letters beside the first, and the rates of wrong answers.
 fn label(group: &[&WorkPoint], rays: usize) -> String {
-    let mut rates: Vec<String> = group.iter().map(|p| wrong_rate(p.wrong, rays)).collect();
+    let mut rates: Vec<String> = group.iter().map(|p| wrong_rates(p.wrong, rays)).collect();
     rates.dedup();
     let others: String = group[1..].iter().map(|p| letter(p.method)).collect();
-    let rates = rates.join("/") + " %";
+    let rates = rates.join(", ") + " %";
     if others.is_empty() {
         rates
     } else {
@@ -374,6 +404,8 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
+    use crate::lab::bench::Pareto;
+    use crate::lab::timing::{TimedRun, Timing};
     use crate::lab::{Census, Errors, FaultCounts, Percentiles};
     use crate::method::Method;
 
@@ -393,11 +425,20 @@ mod tests {
                 judged: 1000 - wrong,
                 ..Errors::default()
             },
-            times: crate::lab::timing::Times::default(),
+            second: crate::lab::SecondRays::default(),
+            times: None,
             stages: None,
-            pareto: wrong == 0,
+            pareto: if wrong == 0 {
+                Pareto::Best
+            } else {
+                Pareto::Beaten
+            },
         };
-        row.times.throughput.median = ns;
+        let unseen = Timing::of(vec![ns; 4], &[ns; 4]);
+        row.times = Some(Times {
+            unseen,
+            ..Times::default()
+        });
         row
     }
 
@@ -409,7 +450,10 @@ mod tests {
                 rays: 1000,
                 ..Census::default()
             },
+            kind: "test".into(),
             timed: 1000,
+            unseen: 1000,
+            run: TimedRun::default(),
             rows,
         }
     }
@@ -444,7 +488,7 @@ mod tests {
         // Who has no right answer stands at the end.
         assert!(t.0 <= d.0, "{lines:#?}");
         let whole = lines.join("\n");
-        for words in ["t 12 %", "h 0.3 %", "e 0 %", "d 100 %", "*e exact"] {
+        for words in ["t 12/0 %", "h 0.3/0 %", "e 0 %", "d 100/0 %", "*e exact"] {
             assert!(whole.contains(words), "no {words} in {lines:#?}");
         }
     }
@@ -457,7 +501,7 @@ mod tests {
             row(Method::Exact, 0.5, 4.0, 0),
         ];
         let whole = text(&work(&set(rows), 60, 24, Glyphs::Unicode)).join("\n");
-        assert!(whole.contains("t c 12 %"), "{whole}");
+        assert!(whole.contains("t c 12/0 %"), "{whole}");
     }
 
     fn any_value() -> impl Strategy<Value = f64> {
@@ -472,7 +516,7 @@ mod tests {
     proptest! {
         #[test]
         fn any_chart_keeps_to_its_room(
-            values in prop::collection::vec((any_value(), any_value(), 0_usize..=1000), 0..6),
+            values in prop::collection::vec((any_value(), any_value(), 0_usize..=1000), 0..9),
             cols in 0_usize..140,
             rows in 0_usize..50,
             ascii in any::<bool>(),
@@ -481,7 +525,7 @@ mod tests {
             let made = methods.map(|(m, (p99, ns, wrong))| row(m, p99, ns, wrong)).collect();
             let glyphs = if ascii { Glyphs::Ascii } else { Glyphs::Unicode };
             let lines = work(&set(made), cols, rows, glyphs);
-            for line in &lines[..lines.len().saturating_sub(8)] {
+            for line in &lines[..lines.len().saturating_sub(10)] {
                 prop_assert!(line.width() <= cols);
                 prop_assert!(!ascii || line.text().is_ascii());
             }

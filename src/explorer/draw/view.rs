@@ -38,9 +38,12 @@ pub(crate) fn draw(
         Digits::Significant(6),
     );
     let step = format!("step {step}");
-    let foot = match state.at.sphere {
-        Some(at) => format!("sphere {} selected  {step}", at + 1),
-        None => step,
+    let (x, y) = state.at.cursor;
+    let acne = state.picture.frame.acne(state.scene(), x, y);
+    let foot = match (acne, state.at.sphere) {
+        (Some(acne), _) => explain::acne_words(&acne),
+        (None, Some(at)) => format!("sphere {} selected  {step}", at + 1),
+        (None, None) => step,
     };
     pen.frame(area, "", &foot);
     let image = &state.picture.image;

@@ -18,7 +18,6 @@ use crate::explorer::panel::component::{AS_FIGURE, Component, show};
 use crate::explorer::state::State;
 use crate::lab::bench::Benchmark;
 use crate::lab::picture::{NoChart, chart};
-use crate::lab::timing::SelfCheck;
 use crate::lab::{BenchQueue, BenchWait};
 use crate::render::Allowance;
 use crate::scene::{Rays, Scene};
@@ -204,18 +203,10 @@ impl Chart {
                 "STALE: the picture was another one when this was measured. % measures anew.";
             remarks.push((Role::Warning, stale.into()));
         }
-        for check in self.report.self_checks.iter().filter(|check| !check.passed) {
-            let SelfCheck {
-                name,
-                ratio,
-                least,
-                most,
-                ..
-            } = check;
-            let text = format!(
-                "TIMES NOT TO BE TRUSTED: {name} is {ratio:.2} and should be {least} to {most}. \
-                 Something else was running? % measures anew."
-            );
+        let complaints = self.report.complaints();
+        if let [first, more @ ..] = complaints.as_slice() {
+            let more = if more.is_empty() { "" } else { " …" };
+            let text = format!("TIMES NOT TRUSTED: {first}{more}");
             remarks.push((Role::Warning, text));
         }
         if cfg!(debug_assertions) {

@@ -1,10 +1,11 @@
 //! A benchmark for people: as text of 80 columns, and the same in Markdown.
 
-use super::{Benchmark, MeasuredMethod, MeasuredSet};
-use crate::lab::errors::{Census, Errors, Fault, Worst};
+use super::{Benchmark, MeasuredMethod, MeasuredSet, Pareto, answer};
+use crate::lab::errors::{Census, Errors, Fault, FaultCounts, Worst};
 use crate::lab::machine::Machine;
 use crate::lab::numbers;
-use crate::lab::timing::{Nanoseconds, Times};
+use crate::lab::second::{Clearance, SecondRays};
+use crate::lab::timing::{Times, Timing};
 use crate::method::exact::Stage;
 use crate::report::{Column, Report, Table};
 use crate::text::hexadecimal;
@@ -25,13 +26,45 @@ pub(crate) fn brief(x: f64) -> String {
     }
 }
 
-/// The report as text; `worst` adds the inputs of the largest errors.
-pub fn text(bench: &Benchmark, machine: &Machine, worst: bool) -> Report {
+/// The report as text; `worst` adds the inputs of the largest errors. The answer comes last, where a terminal
+/// shows it.
+pub fn text(
+    bench: &Benchmark,
+    machine: &Machine,
+    worst: bool,
+    against: Option<&[String]>,
+) -> Report {
     let start = Report::new().lines(header(bench, machine));
     let sets = bench.sets.iter();
-    sets.fold(start, |report, set| report.gap().then(section(set, worst)))
+    let report = sets
+        .fold(start, |report, set| report.gap().then(section(set, worst)))
         .gap()
-        .lines(footer(bench))
+        .lines(footer(bench));
+    let report = match against {
+        None => report,
+        Some(differences) => report
+            .gap()
+            .heading("against the earlier report")
+            .lines(differences.iter().map(|line| format!("  {line}"))),
+    };
+    report.gap().then(answer(bench))
+}
+
+/// For each kind of rays which method is right and what it costs.
+fn answer(bench: &Benchmark) -> Report {
+    if bench.sets.is_empty() {
+        return Report::new();
+    }
+    let heading = match bench.complaints() {
+        none if none.is_empty() => {
+            "which method, for which rays; ns for a ray not seen before".to_owned()
+        }
+        _ => "which method, for which rays; TIMES NOT TRUSTED (see above)".to_owned(),
+    };
+    Report::new()
+        .heading(heading)
+        .table(answer::table(bench).indented(2))
+        .lines(answer::LEGEND.map(|line| format!("  {line}")))
 }
 
 fn header(bench: &Benchmark, machine: &Machine) -> Vec<String> {
@@ -52,6 +85,7 @@ fn section(set: &MeasuredSet, worst: bool) -> Report {
     Report::new()
         .heading(format!("{}: {}", set.name, set.about))
         .table(errors(set))
+        .table(second(set))
         .table(times(set))
         .lines(settled.map(|text| format!("  {text}")))
         .lines(largest)
@@ -61,7 +95,7 @@ fn errors(set: &MeasuredSet) -> Table {
     let rows: Vec<_> = set
         .rows
         .iter()
-        .map(|row| (if row.pareto { '*' } else { ' ' }, row.method, &row.errors))
+        .map(|row| (row.pareto.mark(), row.method, &row.errors))
         .collect();
     error_lines(&set.census, &rows)
 }
@@ -99,36 +133,113 @@ fn error_cells(errors: &Errors) -> impl Iterator<Item = String> {
     wrong.into_iter().chain(ulp)
 }
 
-/// The three ways in which a row was timed, with the ratio to `textbook`.
-fn ways(times: &Times) -> [(Nanoseconds, f64); 3] {
-    [
-        (times.throughput, times.throughput_ratio),
-        (times.batch, times.batch_ratio),
-        (times.latency, times.latency_ratio),
-    ]
+/// What the hits of each method are as points, and as starts of second rays, in parts of the radius.
+fn second(set: &MeasuredSet) -> Table {
+    let names = [
+        "p99", "largest", "p99", "hits", "t-min", "missed", "along n", "missed",
+    ];
+    let cells = |row: &MeasuredMethod| {
+        std::iter::once(row.method.to_owned())
+            .chain(second_cells(&row.second))
+            .collect()
+    };
+    Table::new(
+        std::iter::once(Column::left("parts of r")).chain(names.map(Column::right)),
+        set.rows.iter().map(cells),
+    )
+    .grouped(&[
+        ("errors in", 1),
+        ("point p", 2),
+        ("normal", 1),
+        ("self-", 1),
+        ("clear of them by, and", 4),
+    ])
+    .indented(2)
+}
+
+/// The errors of point and normal, self-hits of all hits, what clears them and what that misses; blank where the
+/// method has no hit.
+fn second_cells(second: &SecondRays) -> Vec<String> {
+    if second.hits == 0 {
+        return vec!["–".to_owned(); 8];
+    }
+    let clearance = |clearance: &Clearance| {
+        let epsilon = clearance.of_radius.map_or("> r".to_owned(), brief);
+        [
+            epsilon,
+            percent(clearance.missed, second.hits).replace(' ', ""),
+        ]
+    };
+    let point = &second.point_of_radius;
+    let start = [point.p99, point.max, second.normal_of_radius.p99].map(brief);
+    start
+        .into_iter()
+        .chain([percent(second.self_hits, second.hits).replace(' ', "")])
+        .chain(clearance(&second.t_min))
+        .chain(clearance(&second.along_normal))
+        .collect()
+}
+
+/// The ways in which a row was timed.
+fn ways(times: &Times) -> [&Timing; 4] {
+    let Times {
+        unseen,
+        learned,
+        batch,
+        latency,
+    } = times;
+    [unseen, learned, batch, latency]
+}
+
+/// A ratio to `textbook`, or that the two are not told apart.
+fn ratio(timing: &Timing, first: &Timing, alike: &str, told: impl Fn(f64) -> String) -> String {
+    if timing == first || timing.is_told_apart_from(first) {
+        told(timing.ratio)
+    } else {
+        alike.to_owned()
+    }
 }
 
 fn times(set: &MeasuredSet) -> Table {
-    let names = ["med.", "min", "iqr", "×tb"].repeat(3);
+    let full = ["med.", "min", "iqr", "×tb"];
+    let names = full.into_iter().chain(["med.", "×tb"].repeat(3));
+    let short = |ratio: f64| match brief(ratio) {
+        long if long.len() > 4 => format!("{ratio:.0}"),
+        ratio => ratio,
+    };
+    let first = set.run.times.first();
     let cells = |row: &MeasuredMethod| {
-        let ways = ways(&row.times).into_iter().flat_map(|(ns, ratio)| {
-            let ratio = match brief(ratio) {
-                long if long.len() > 4 => format!("{ratio:.0}"),
-                ratio => ratio,
+        let Some((times, first)) = row.times.as_ref().zip(first) else {
+            return std::iter::once(row.method.to_owned())
+                .chain(std::iter::repeat_n("–".to_owned(), 10))
+                .collect();
+        };
+        let ways = ways(times).into_iter().zip(ways(first)).enumerate();
+        let ways = ways.flat_map(|(i, (timing, first))| {
+            let ns = timing.ns;
+            let spread = if i == 0 {
+                vec![brief(ns.min), brief(ns.iqr)]
+            } else {
+                Vec::new()
             };
-            [brief(ns.median), brief(ns.min), brief(ns.iqr), ratio]
+            let ratio = ratio(timing, first, "≈1", short);
+            std::iter::once(brief(ns.median))
+                .chain(spread)
+                .chain([ratio])
+                .collect::<Vec<_>>()
         });
         std::iter::once(row.method.to_owned()).chain(ways).collect()
     };
     Table::new(
-        std::iter::once(Column::left("a solve")).chain(names.into_iter().map(Column::right)),
+        std::iter::once(Column::left("a solve")).chain(names.map(Column::right)),
         set.rows.iter().map(cells),
     )
     .grouped(&[
         ("ns for", 1),
-        ("one by one", 4),
-        ("in arrays", 4),
-        ("waiting for the last", 4),
+        ("one by one, unseen", 4),
+        ("learned", 2),
+        ("arrays", 2),
+        ("in a chain", 2),
     ])
     .indented(2)
 }
@@ -177,7 +288,21 @@ fn footer(bench: &Benchmark) -> Vec<String> {
         out.push("Interrupted: what is above is complete, the rest was not measured.".into());
     }
     out.push("* Pareto: none is as good in wrong answers, p99 and time, and better in one".into());
-    out.push("×tb: times textbook in the same rounds, the median over the rounds".into());
+    out.push("~ one as good in wrong answers and p99 is not told apart in time".into());
+    out.push(
+        "×tb: times textbook in the same rounds, the median; ≈1: not told apart from it".into(),
+    );
+    out.push(
+        "self-hits: second rays that start at the computed point, away from the sphere, and meet \
+         it; clear: the least that passes over them all, and the share of rays into the sphere \
+         whose other side it passes over as well"
+            .into(),
+    );
+    out.push(
+        "unseen: each ray comes again only after all others; learned, arrays, in a chain \
+         (each solve waits for the last): a few rays again and again, which processors learn"
+            .into(),
+    );
     out.extend(bench.self_checks.iter().map(|check| {
         let said = if check.passed { "passed" } else { "FAILED" };
         format!(
@@ -186,28 +311,40 @@ fn footer(bench: &Benchmark) -> Vec<String> {
         )
     }));
     out.push(format!("times_trusted: {}", bench.times_trusted()));
+    out.extend(
+        bench
+            .complaints()
+            .into_iter()
+            .map(|why| format!("  not trusted: {why}")),
+    );
     out
 }
 
 /// The report in Markdown: overviews of errors and times; for each set a table of errors, which are the same
 /// everywhere, and one of times, which are not.
-pub fn markdown(bench: &Benchmark, machine: &Machine) -> Report {
+pub fn markdown(bench: &Benchmark, machine: &Machine, against: Option<&[String]>) -> Report {
     let start = Report::new()
         .fixed(header(bench, machine))
+        .table(answer::table(bench))
+        .items(answer::LEGEND.map(str::to_owned).into())
         .table(error_overview(bench))
-        .words("One by one:")
+        .words("One by one, rays not seen before:")
         .table(time_overview(bench, |times| ways(times)[0]))
-        .words("In arrays:")
-        .table(time_overview(bench, |times| ways(times)[1]));
+        .words("One by one, a few rays again and again, which the processor learns:")
+        .table(time_overview(bench, |times| ways(times)[1]))
+        .words("In arrays, a few rays again and again:")
+        .table(time_overview(bench, |times| ways(times)[2]));
     let sets = bench.sets.iter();
     sets.fold(start, |report, set| {
         report
             .heading(&set.name)
             .words(&set.about)
             .table(error_table(set))
+            .table(second_table(set))
             .table(time_table(set))
             .items(set.rows.iter().filter_map(largest_input).collect())
     })
+    .items(against.unwrap_or_default().to_vec())
     .fixed(footer(bench))
 }
 
@@ -236,7 +373,7 @@ fn overview(bench: &Benchmark, cell: impl Fn(&MeasuredSet, &MeasuredMethod) -> S
     )
 }
 
-/// Wrong answers and the 99th percentile of the error in ulp, set by set.
+/// Wrong answers by what is wrong and the 99th percentile of the error in ulp, set by set.
 pub fn error_overview(bench: &Benchmark) -> Table {
     overview(bench, |set, row| {
         let errors = &row.errors;
@@ -244,18 +381,38 @@ pub fn error_overview(bench: &Benchmark) -> Table {
             0 => "–".to_owned(),
             _ => brief(errors.ulp.p99),
         };
-        match errors.wrong.total() {
-            0 => p99,
-            wrong => format!("**{}**, {p99}", percent(wrong, set.census.rays)),
+        let rays = set.census.rays;
+        let wrong = wrong_by_kind(&errors.wrong);
+        let parts = wrong.into_iter().filter(|(count, _)| *count > 0);
+        let parts = parts.map(|(count, what)| format!("{} {what}", percent(count, rays)));
+        let parts: Vec<String> = parts.chain([p99]).collect();
+        match parts.split_last() {
+            Some((p99, [])) => p99.clone(),
+            Some((p99, wrong)) => format!("**{}**, {p99}", wrong.join(" + ")),
+            None => String::new(),
         }
     })
 }
 
+/// How many answers have a wrong hit or miss, a wrong count, or are no number, with a word for each.
+pub(crate) fn wrong_by_kind(wrong: &FaultCounts) -> [(usize, &'static str); 3] {
+    [
+        (wrong.hit_or_miss(), "hit-or-miss"),
+        (wrong.wrong_count, "count"),
+        (wrong.not_finite, "no number"),
+    ]
+}
+
 /// The median time of one solve in ns, and how many times that of `textbook` it is.
-fn time_overview(bench: &Benchmark, way: fn(&Times) -> (Nanoseconds, f64)) -> Table {
-    overview(bench, |_, row| {
-        let (ns, ratio) = way(&row.times);
-        format!("{} ({ratio:.2})", brief(ns.median))
+fn time_overview(bench: &Benchmark, way: fn(&Times) -> &Timing) -> Table {
+    overview(bench, |set, row| {
+        let Some((times, first)) = row.times.as_ref().zip(set.run.times.first()) else {
+            return "not timed".to_owned();
+        };
+        let timing = way(times);
+        let told = |ratio: f64| format!("{ratio:.2}");
+        let ratio = ratio(timing, way(first), "not told apart", told);
+        format!("{} ({ratio})", brief(timing.ns.median))
     })
 }
 
@@ -274,20 +431,66 @@ pub fn error_table(set: &MeasuredSet) -> Table {
     Table::new(columns.chain(faults).chain(ulp), set.rows.iter().map(cells))
 }
 
+/// The second rays of one set for Markdown.
+pub fn second_table(set: &MeasuredSet) -> Table {
+    let names = [
+        "point p99, of r",
+        "largest",
+        "normal p99",
+        "self-hits",
+        "cleared by t-min, of r",
+        "missed",
+        "along the normal, of r",
+        "missed",
+    ];
+    let cells = |row: &MeasuredMethod| {
+        std::iter::once(code(row.method))
+            .chain(second_cells(&row.second))
+            .collect()
+    };
+    Table::new(
+        std::iter::once(Column::left("method")).chain(names.map(Column::right)),
+        set.rows.iter().map(cells),
+    )
+}
+
 fn time_table(set: &MeasuredSet) -> Table {
-    let ways_in_words = ["ns one by one", "ns in arrays", "latency ns"];
+    let ways_in_words = [
+        "ns one by one, unseen",
+        "learned",
+        "in arrays",
+        "in a chain",
+    ];
     let names = ways_in_words.map(|way| [way, "min", "iqr", "× textbook"].map(Column::right));
     let columns = std::iter::once(Column::left("method"))
         .chain(names.into_iter().flatten())
         .chain([Column::left("Pareto")]);
     let cells = |row: &MeasuredMethod| {
-        let ways = ways(&row.times).into_iter().flat_map(|(ns, ratio)| {
-            let [median, min, iqr] = [ns.median, ns.min, ns.iqr].map(|ns| format!("{ns:.1}"));
-            [median, min, iqr, format!("{ratio:.2}")]
-        });
-        let pareto = if row.pareto { "yes" } else { "" };
+        let cells = match row.times.as_ref().zip(set.run.times.first()) {
+            None => vec!["–".to_owned(); 16],
+            Some((times, first)) => {
+                let ways = ways(times).into_iter().zip(ways(first));
+                let ways = ways.flat_map(|(timing, first)| {
+                    let ns = [timing.ns.median, timing.ns.min, timing.ns.iqr];
+                    let [median, min, iqr] = ns.map(|ns| format!("{ns:.1}"));
+                    let told = |ratio: f64| format!("{ratio:.2}");
+                    [
+                        median,
+                        min,
+                        iqr,
+                        ratio(timing, first, "not told apart", told),
+                    ]
+                });
+                ways.collect()
+            }
+        };
+        let pareto = match row.pareto {
+            Pareto::Best => "yes",
+            Pareto::Open => "not told apart",
+            Pareto::Beaten => "",
+        };
         std::iter::once(code(row.method))
-            .chain(ways)
+            .chain(cells)
             .chain([pareto.to_owned()])
             .collect()
     };

@@ -2,51 +2,65 @@
 
 use super::svg::{Stroke, Svg, TextAnchor};
 use super::{INK, Plot, legend, look, power_label};
+use crate::lab::bench::Benchmark;
 use crate::lab::bench::text::percent;
-use crate::lab::bench::{Benchmark, MeasuredSet};
-use crate::lab::chart::{Scale, WorkPoint, best, work_points};
+use crate::lab::chart::{ChartAxes, ErrorAxis, Scale, WorkPoint, best, work_points};
+use crate::lab::errors::nearest_rank;
 use crate::lab::machine::Machine;
 
 const COLUMNS: usize = 3;
-const PANEL: [f64; 2] = [320.0, 210.0];
+const PANEL: [f64; 2] = [320.0, 230.0];
 /// Room around a panel: left and right together, above and below together.
-const GAP: [f64; 2] = [72.0, 52.0];
+const GAP: [f64; 2] = [72.0, 68.0];
 const LEFT: f64 = 58.0;
-const TOP: f64 = 96.0;
+const TOP: f64 = 112.0;
 
-/// The errors that the chart spans, as log₂ ulp: from a quarter of an ulp to nothing left, and room
-/// for the methods that have no right answer.
-const ERRORS: Scale = Scale::new(-2.0, 36.0);
-
-/// Where those stand.
-const NONE_RIGHT: f64 = 35.0;
-
-/// The chart of a report as an SVG document.
-pub fn work_precision(report: &Benchmark, machine: &Machine) -> String {
-    let rows = report.sets.len().div_ceil(COLUMNS);
-    let columns = report.sets.len().clamp(2, COLUMNS);
+/// The chart of a report as an SVG document: all sets in one panel, then each in its own.
+pub fn work_precision(report: &Benchmark, machine: &Machine, axes: ChartAxes) -> String {
+    let sets: Vec<Vec<WorkPoint>> = report
+        .sets
+        .iter()
+        .map(|set| work_points(set, axes))
+        .collect();
+    let panels = 1 + report.sets.len();
+    let columns = panels.clamp(2, COLUMNS);
     let width = LEFT + columns as f64 * (PANEL[0] + GAP[0]) - 20.0;
-    let height = TOP + rows as f64 * (PANEL[1] + GAP[1]);
+    let height = TOP + panels.div_ceil(COLUMNS) as f64 * (PANEL[1] + GAP[1]);
     let mut svg = Svg::new(width, height, "Error against run time");
     header(&mut svg, report, machine);
-    let times = span(report);
-    for (i, set) in report.sets.iter().enumerate() {
-        let panel = Plot {
-            at: [
-                LEFT + (i % COLUMNS) as f64 * (PANEL[0] + GAP[0]),
-                TOP + (i / COLUMNS) as f64 * (PANEL[1] + GAP[1]),
-            ],
-            size: PANEL,
-            x: ERRORS,
-            y: times,
-        };
-        draw(&mut svg, &panel, set);
+    let times = span(&sets);
+    let panel = |i: usize| Plot {
+        at: [
+            LEFT + (i % COLUMNS) as f64 * (PANEL[0] + GAP[0]),
+            TOP + (i / COLUMNS) as f64 * (PANEL[1] + GAP[1]),
+        ],
+        size: PANEL,
+        x: errors(axes.x),
+        y: times,
+    };
+    overview(&mut svg, &panel(0), &sets, axes);
+    for (i, (set, points)) in report.sets.iter().zip(sets).enumerate() {
+        let title = format!("{}, {} rays", set.name, set.census.rays);
+        frame(&mut svg, &panel(i + 1), &title, axes);
+        draw(&mut svg, &panel(i + 1), points, set.census.rays);
     }
     svg.finish()
 }
 
+/// The errors that a chart spans: as log₂ ulp from a quarter of an ulp to nothing left, and room
+/// for the methods that have no right answer; or all per cent.
+const fn errors(axis: ErrorAxis) -> Scale {
+    match axis {
+        ErrorAxis::Wrong => Scale::new(-4.0, 104.0),
+        _ => Scale::new(-2.0, 36.0),
+    }
+}
+
+/// Where those stand.
+const NONE_RIGHT: f64 = 35.0;
+
 fn header(svg: &mut Svg, report: &Benchmark, machine: &Machine) {
-    let title = "Error (99th percentile, in ulp) against the time of one solve (ns): the lower left is best";
+    let title = "Error against run time: the lower left is best";
     svg.text([16.0, 24.0], title, 16.0, "#000000", TextAnchor::Start);
     let Machine {
         cpu,
@@ -59,21 +73,21 @@ fn header(svg: &mut Svg, report: &Benchmark, machine: &Machine) {
     } else {
         "; TIMES NOT TRUSTED"
     };
-    let made = format!(
-        "{cpu}; {compiler}, {flags}; seed {}{trusted}. Labels: rate of wrong answers. Grey: Pareto line.",
-        report.seed
-    );
+    let made = format!("{cpu}; {compiler}, {flags}; seed {}{trusted}.", report.seed);
     svg.text([16.0, 42.0], &made, 11.0, INK, TextAnchor::Start);
+    let labels = "Labels: wrong hit-or-miss / wrong count (/ no number) in per cent of the rays. Bars: from \
+        quartile to quartile. Grey: Pareto line, through methods that are told apart.";
+    svg.text([16.0, 58.0], labels, 11.0, INK, TextAnchor::Start);
     let first = report.sets.first();
     let methods: Vec<&str> =
         first.map_or(Vec::new(), |c| c.rows.iter().map(|r| r.method).collect());
-    legend(svg, [16.0, 62.0], &methods);
+    legend(svg, [16.0, 78.0], &methods);
 }
 
 /// log₂ of the shortest and the longest time, in whole steps of a factor of 10^(1/2).
-fn span(report: &Benchmark) -> Scale {
+fn span(sets: &[Vec<WorkPoint>]) -> Scale {
     let half_decade = 10_f64.log2() / 2.0;
-    let times = report.sets.iter().flat_map(work_points).map(|p| p.time);
+    let times = sets.iter().flatten().map(|p| p.time);
     let (least, most) = times.fold((f64::INFINITY, 0.0_f64), |(l, m), t| (l.min(t), m.max(t)));
     let [least, most] = [least.min(most), most].map(|time| time / half_decade);
     Scale::new(
@@ -82,27 +96,77 @@ fn span(report: &Benchmark) -> Scale {
     )
 }
 
-fn draw(svg: &mut Svg, panel: &Plot, set: &MeasuredSet) {
+/// The axes of a panel with their titles.
+fn frame(svg: &mut Svg, panel: &Plot, title: &str, axes: ChartAxes) {
     panel.rules(svg, &time_ticks(panel.y));
-    let mut ticks: Vec<(f64, String)> = [-1, 4, 9, 14, 19, 24, 29]
-        .map(|k| (f64::from(k), power_label(k)))
-        .into();
-    ticks.push((NONE_RIGHT, "none right".into()));
+    let ticks: Vec<(f64, String)> = if axes.x == ErrorAxis::Wrong {
+        [0, 25, 50, 75, 100]
+            .map(|k| (f64::from(k), k.to_string()))
+            .into()
+    } else {
+        let powers = [-1, 4, 9, 14, 19, 24, 29].map(|k| (f64::from(k), power_label(k)));
+        powers
+            .into_iter()
+            .chain([(NONE_RIGHT, "none right".into())])
+            .collect()
+    };
     panel.columns(svg, &ticks);
-    let rays = set.census.rays;
-    panel.title(svg, &format!("{}, {rays} rays", set.name));
+    panel.title(svg, title);
     let [x, y] = panel.at;
-    svg.text_upwards([x - 42.0, y + PANEL[1] / 2.0], "ns", 10.0, INK);
-    let points = work_points(set);
+    svg.text_upwards([x - 42.0, y + PANEL[1] / 2.0], axes.y.title(), 10.0, INK);
+    let below = [x + PANEL[0] / 2.0, y + PANEL[1] + 28.0];
+    svg.text(below, axes.x.title(), 10.0, INK, TextAnchor::Middle);
+}
+
+/// Each method once: the median over the sets, and bars from quartile to quartile of the sets.
+fn overview(svg: &mut Svg, panel: &Plot, sets: &[Vec<WorkPoint>], axes: ChartAxes) {
+    let title = format!("overview: medians over {} sets of rays", sets.len());
+    frame(svg, panel, &title, axes);
+    let methods = sets.first().into_iter().flatten().map(|point| point.method);
+    for method in methods {
+        let points = sets.iter().flatten().filter(|point| point.method == method);
+        let quartiles = |value: &dyn Fn(&WorkPoint) -> f64| {
+            let mut values: Vec<f64> = points.clone().map(value).collect();
+            values.sort_by(f64::total_cmp);
+            [1, 2, 3].map(|n| nearest_rank(&values, n, 4))
+        };
+        let [left, x, right] = quartiles(&|point| point.error.unwrap_or(NONE_RIGHT));
+        let [low, y, high] = quartiles(&|point| point.time);
+        let (color, marker) = look(method);
+        let bar = Stroke::solid(color, 1.2);
+        svg.line(panel.place(left, y), panel.place(right, y), bar);
+        svg.line(panel.place(x, low), panel.place(x, high), bar);
+        let at = panel.place(x, y);
+        svg.marker(at, marker, color);
+        let beside = [at[0] + 7.0, at[1] - 5.0];
+        svg.label(beside, method, text_color(method), TextAnchor::Start);
+    }
+}
+
+fn draw(svg: &mut Svg, panel: &Plot, points: Vec<WorkPoint>, rays: usize) {
     let line: Vec<[f64; 2]> = best(&points).iter().map(|p| place(panel, p)).collect();
     if line.len() > 1 {
         svg.polyline(&line, Stroke::solid("#d0d0d0", 5.0));
     }
     for point in &points {
         let (color, marker) = look(point.method);
+        let x = point.error.unwrap_or(NONE_RIGHT);
+        let bar = point.spread.map(|time| panel.place(x, time));
+        svg.line(bar[0], bar[1], Stroke::solid(color, 1.2));
         svg.marker(place(panel, point), marker, color);
     }
     labels(svg, panel, points, &line, rays);
+}
+
+/// The rates of a point's wrong answers: hit-or-miss, count, and no number where there is any.
+fn rates(point: &WorkPoint, rays: usize) -> String {
+    let [hit_or_miss, count, none] = point.wrong;
+    let rate = |wrong: usize| percent(wrong, rays).replace(" %", "").replace("0.0", "0");
+    match [hit_or_miss, count, none] {
+        [0, 0, 0] => "0 wrong".to_owned(),
+        [.., 0] => format!("{}/{} %", rate(hit_or_miss), rate(count)),
+        _ => format!("{}/{}/{} %", rate(hit_or_miss), rate(count), rate(none)),
+    }
 }
 
 fn time_ticks(scale: Scale) -> Vec<(f64, String)> {
@@ -129,10 +193,7 @@ fn labels(svg: &mut Svg, panel: &Plot, mut points: Vec<WorkPoint>, line: &[[f64;
     }
     points.sort_by(|a, b| a.time.total_cmp(&b.time));
     for point in points {
-        let wrong = match point.wrong {
-            0 => "0 wrong".to_owned(),
-            wrong => format!("{} wrong", percent(wrong, rays)),
-        };
+        let wrong = rates(&point, rays);
         let at = place(panel, &point);
         let area = free_area(panel, at, 5.6 * wrong.chars().count() as f64, &taken);
         taken.push(area);

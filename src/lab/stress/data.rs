@@ -7,6 +7,7 @@ use super::{MethodErrors, Stability};
 use crate::lab::Problem;
 use crate::lab::errors::{FaultCounts, Percentiles};
 use crate::lab::numbers;
+use crate::lab::second::SecondRays;
 use crate::report::{self, DataColumn, Table};
 use crate::text::hexadecimal;
 
@@ -85,6 +86,7 @@ struct SettingJson {
     bits_lost: Bits,
     blame: Percentiles,
     moved: usize,
+    second: SecondRays,
 }
 
 #[derive(Serialize)]
@@ -120,6 +122,7 @@ fn settings(stability: &Stability) -> impl Iterator<Item = SettingJson> {
                     },
                     blame: cell.blame,
                     moved: cell.moved,
+                    second: cell.second.clone(),
                 }
             };
             stability.methods.iter().zip(&step.cells).map(one)

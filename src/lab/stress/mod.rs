@@ -15,10 +15,14 @@ use super::dials::Dial;
 use super::errors::{Census, Errors, Percentiles};
 use super::promise;
 use super::reference::{Reference, ReferenceRoot};
+use super::second::SecondRays;
 use super::{Checksum, Problem};
 use crate::geometry::{Ray, Sphere};
 pub use crate::method::bits_lost;
 use crate::method::{Method, Solution};
+
+/// The most rays of a setting whose second rays are followed.
+const MOST_FOLLOWED: usize = 64;
 
 /// One method at one setting of a dial.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,6 +31,8 @@ pub struct MethodErrors {
     pub errors: Errors,
     /// The blame err/(κu) of the worse root, over the rays that are judged.
     pub blame: Percentiles,
+    /// What its hits are as points, and as starts of second rays.
+    pub second: SecondRays,
     /// Hits that the error moved by more than half a pixel, among the answers that are not wrong.
     pub moved: usize,
 }
@@ -292,6 +298,7 @@ pub fn measure(
         moved += usize::from(shift(problem, truth, &answer) > half_pixel);
     }
     MethodErrors {
+        second: SecondRays::of(&solve, problems, references, MOST_FOLLOWED),
         errors: Errors::of(problems, references, solve),
         blame: Percentiles::of(&mut blames),
         moved,

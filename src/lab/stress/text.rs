@@ -6,6 +6,7 @@ use super::theory::{AGREEMENT, agree};
 use super::{Check, DialSetting, MethodErrors, Stability, Sweep, bits_lost, invariance};
 use crate::lab::bench::text::code;
 use crate::lab::numbers;
+use crate::lab::second::Clearance;
 use crate::method::Method;
 use crate::report::{Column, Report, Table};
 use crate::text::hexadecimal;
@@ -34,15 +35,17 @@ pub fn text(stability: &Stability) -> Report {
 fn section(stability: &Stability, sweep: &Sweep) -> Report {
     Report::new()
         .heading(format!("{}: {}", sweep.dial.name, sweep.dial.about))
-        .words("  wrong answers in per cent, bits lost: median/worst")
+        .words("  wrong hit-or-miss/count(/no number) in per cent, bits lost: median/worst")
         .then(grids(stability, sweep, wrong_and_bits))
         .words("  blame err/(κu): median/worst")
         .then(grids(stability, sweep, blame))
+        .words("  second ray, parts of r: point p99, clear of itself by t-min/along the normal")
+        .then(grids(stability, sweep, second))
         .then(inputs(sweep))
 }
 
 /// The most methods that stand side by side in eighty columns.
-const BESIDE: usize = 6;
+const BESIDE: usize = 4;
 
 /// As many tables as the methods need, with about as many methods each.
 fn grids(stability: &Stability, sweep: &Sweep, show: fn(&MethodErrors, usize) -> String) -> Report {
@@ -115,7 +118,14 @@ fn inputs(sweep: &Sweep) -> Report {
 }
 
 fn wrong_and_bits(cell: &MethodErrors, rays: usize) -> String {
-    let wrong = in_percent(cell.errors.wrong.total(), rays);
+    let wrong = &cell.errors.wrong;
+    let [hit_or_miss, count, none] =
+        [wrong.hit_or_miss(), wrong.wrong_count, wrong.not_finite].map(|n| in_percent(n, rays));
+    let wrong = match [wrong.total(), wrong.not_finite] {
+        [0, _] => hit_or_miss,
+        [_, 0] => format!("{hit_or_miss}/{count}"),
+        _ => format!("{hit_or_miss}/{count}/{none}"),
+    };
     let bits = |bits: Option<f64>| bits.map_or("-".into(), |bits| format!("{bits:.0}"));
     let (median, worst) = (bits(cell.bits_median()), bits(cell.bits_worst()));
     format!("{wrong} {:>5}", format!("{median}/{worst}"))
@@ -139,6 +149,21 @@ fn blame(cell: &MethodErrors, _: usize) -> String {
         return "-".into();
     }
     format!("{}/{}", tiny(cell.blame.p50), tiny(cell.blame.max))
+}
+
+/// How far the point is off, and what clears every self-hit of a ray that starts there.
+fn second(cell: &MethodErrors, _: usize) -> String {
+    let second = &cell.second;
+    if second.hits == 0 {
+        return "-".into();
+    }
+    let clear = |clearance: &Clearance| clearance.of_radius.map_or(">r".to_owned(), tiny);
+    let point = tiny(second.point_of_radius.p99);
+    format!(
+        "{point} {}/{}",
+        clear(&second.t_min),
+        clear(&second.along_normal)
+    )
 }
 
 /// A number in at most five characters.
