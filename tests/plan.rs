@@ -655,10 +655,49 @@ fn bench_frames_lists_spheres_sizes_and_times() {
         for key in ["spheres", "width", "height"] {
             assert!(frame[key].as_u64().is_some(), "{key}");
         }
+        assert!(frame["encode_ms"].as_f64().is_some() && frame["ratatui_ms"].as_f64().is_some());
     }
     let (csv, _, _) = run("csv");
     assert!(csv.starts_with("spheres,width,height,method,plan_ms,no_plan_ms,"));
+    assert!(csv.contains(",encode_ms,bytes,ratatui_ms,ratatui_bytes,"));
     assert_eq!(csv.lines().count(), 5);
     let (markdown, _, _) = run("markdown");
     assert!(markdown.contains("| spheres | pixels |"));
+}
+
+#[test]
+fn bench_frames_of_the_explorer_has_a_row_for_each_screen() {
+    let arguments = [
+        "bench",
+        "--frames",
+        "--quick",
+        "--explorer",
+        "trio",
+        "--format",
+    ];
+    let run = |format: &str| rayscope(&[&arguments[..], &[format]].concat());
+    let (json, _, status) = run("json");
+    assert_eq!(status, Some(0));
+    let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let frames = json["frames"].as_array().expect("a list");
+    assert_eq!(frames.len(), 2);
+    for (frame, size) in frames.iter().zip([[80, 24], [200, 60]]) {
+        assert_eq!([&frame["width"], &frame["height"]], size);
+        assert_eq!(
+            (&frame["scene"], &frame["spheres"]),
+            (&"trio".into(), &3.into())
+        );
+        for key in ["plan_ms", "cells_ms", "encode_ms", "ratatui_ms"] {
+            assert!(frame[key].as_f64().is_some_and(|ms| ms > 0.0), "{key}");
+        }
+        let bytes = |key: &str| frame[key].as_u64().expect("bytes");
+        assert!(2 * bytes("bytes") <= bytes("ratatui_bytes"), "{frame}");
+    }
+    let (csv, _, _) = run("csv");
+    assert!(csv.starts_with("scene,spheres,width,height,method,steps,plan_ms,"));
+    let (text, _, _) = run("text");
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 80),
+        "{text}"
+    );
 }

@@ -1,6 +1,6 @@
 //! `rayscope bench`: error against run time.
 
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -9,6 +9,7 @@ use clap::Args;
 
 use super::failure::{DONE, INVALID};
 use super::progress::{INTERRUPTED, Progress};
+use super::screens::{SCREENS, ScreenTimes};
 use super::sweep::SweepArgs;
 use super::unseen::UnseenTerminal;
 use super::{Failure, Outcome, choice, complain, save, whole, write_out};
@@ -45,6 +46,16 @@ pub(super) struct BenchArgs {
     /// With --frames: only these numbers of spheres, separated by commas
     #[arg(long, value_name = "NUMBERS", value_delimiter = ',', requires = "frames", value_parser = whole(1_u32, 3_000_000))]
     counts: Vec<u32>,
+
+    /// With --frames: instead of scenes of many spheres, camera steps on the explorer's whole screen (a file
+    /// or a built-in name)
+    #[arg(
+        long,
+        value_name = "SCENE",
+        requires = "frames",
+        conflicts_with = "counts"
+    )]
+    explorer: Option<OsString>,
 
     /// How many rays of each family
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = whole(1_u32, 10_000_000))]
@@ -83,6 +94,9 @@ fn family() -> impl clap::builder::TypedValueParser<Value = &'static Family> {
 
 /// Runs what was asked for and ends with the exit status.
 pub(super) fn run(arguments: &BenchArgs) -> Outcome {
+    if let Some(scene) = &arguments.explorer {
+        return run_screens(arguments, scene);
+    }
     if arguments.frames {
         return run_frames(arguments);
     }
@@ -192,6 +206,25 @@ fn run_frames(arguments: &BenchArgs) -> Outcome {
         Format::Csv => frames::records(&times).csv(),
         Format::Json => frames::json(&times, &machine),
     })?;
+    Ok(if progress.interrupted() {
+        INTERRUPTED
+    } else {
+        DONE
+    })
+}
+
+/// Measures the explorer's whole screen.
+fn run_screens(arguments: &BenchArgs, scene: &OsStr) -> Outcome {
+    let (scene, source) = Scene::open(scene).map_err(Failure::invalid)?;
+    let methods = arguments.sweep.named()?.unwrap_or(vec![Method::Exact]);
+    let mut progress = Progress::new("bench", methods.len() * SCREENS.len())?;
+    let _lock = right_to_measure(length_of(arguments, methods.len()), &progress);
+    let rounds = if arguments.sweep.quick { 5 } else { 25 };
+    let measured = ScreenTimes::measure((&scene, &source), &methods, rounds, |number, name| {
+        progress.go_on(number, name)
+    });
+    progress.clear();
+    write_out(&measured.in_format(arguments.sweep.format))?;
     Ok(if progress.interrupted() {
         INTERRUPTED
     } else {

@@ -13,6 +13,7 @@ mod print;
 mod progress;
 mod rows;
 mod scenes;
+mod screens;
 mod solve;
 mod stress;
 mod sweep;

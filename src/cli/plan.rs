@@ -78,15 +78,17 @@ fn plans(arguments: &PlanArgs) -> Result<Plans, Failure> {
     let mut screen = FrameSeries::new(arguments, (arguments.method.method()?, view), size, shape);
     let mut progress = Progress::unheeded("plan", 3);
     progress.go_on(0, "the whole picture");
-    let mut frames = vec![screen.show(&scene, "whole", "the whole picture, on an empty screen")];
+    let what = "the whole picture, on an empty screen";
+    let mut frames = vec![screen.show(&scene, "whole", what, &mut progress)];
     progress.go_on(1, "the cursor");
-    frames.push(screen.show(&scene, "cursor", "the cursor has moved"));
+    let what = "the cursor has moved";
+    frames.push(screen.show(&scene, "cursor", what, &mut progress));
     progress.go_on(2, "one sphere");
     let step = usual_step(&scene);
     if let Some(body) = scene.bodies.get_mut(arguments.sphere - 1) {
         body.sphere.center.x += step;
         let what = format!("sphere {} has moved by one step", arguments.sphere);
-        frames.push(screen.show(&scene, "sphere", what));
+        frames.push(screen.show(&scene, "sphere", what, &mut progress));
     }
     progress.clear();
     Ok(Plans {
@@ -145,9 +147,16 @@ impl FrameSeries {
     }
 
     /// Draws the next frame; its plan.
-    fn show(&mut self, scene: &Scene, frame: &'static str, what: impl Into<String>) -> FramePlan {
+    fn show(
+        &mut self,
+        scene: &Scene,
+        frame: &'static str,
+        what: impl Into<String>,
+        progress: &mut Progress,
+    ) -> FramePlan {
         let rays = Rays::new(&scene.camera, self.size, self.shape);
-        self.frame.render(scene, &rays, self.method, self.view);
+        let asked = (self.method, self.view);
+        progress.render(&mut self.frame, (scene, &rays), asked);
         self.image.draw(&self.frame, scene, self.look);
         let plan = self.frame.plan();
         let mut lines = explain::plan_lines(plan, &self.image);

@@ -10,6 +10,7 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::appearance::{Color, ColorChoice, default_style};
+use super::progress::Progress;
 use super::{Failure, MethodName, Outcome, aspect, choice, method_name, write_out, write_picture};
 use crate::explain::{self, Digits, Drawn, Reading};
 use crate::explorer::{self, Explorer, Options, Palette, Panel, Setting};
@@ -208,8 +209,7 @@ fn panel(reading: &Reading) -> String {
 
 /// The derivation of a pixel, from its place to the character that shows it.
 fn steps(scene: &Scene, rays: &Rays, reading: &Reading, (view, look): (View, Look)) -> String {
-    let mut frame = Frame::new();
-    frame.render(scene, rays, reading.method, view);
+    let frame = rendered(scene, rays, reading.method, view);
     let mut image = Image::new();
     image.draw(&frame, scene, look);
     let drawn = Drawn::at(reading.pixel, &frame, &image, look.style);
@@ -227,8 +227,7 @@ fn picture(
     (method, view): (Method, View),
     (style, depth): (Style, ColorDepth),
 ) -> String {
-    let mut frame = Frame::new();
-    frame.render(scene, rays, method, view);
+    let frame = rendered(scene, rays, method, view);
     let mut image = Image::new();
     let look = Look {
         style,
@@ -238,6 +237,15 @@ fn picture(
     };
     image.draw(&frame, scene, look);
     encode(image.lines(), depth)
+}
+
+/// The frame, of which somebody who waits for long is told how much is done.
+fn rendered(scene: &Scene, rays: &Rays, method: Method, view: View) -> Frame {
+    let mut frame = Frame::new();
+    let mut progress = Progress::unheeded("print", 1);
+    progress.render(&mut frame, (scene, rays), (method, view));
+    progress.clear();
+    frame
 }
 
 /// Columns and rows where there is no terminal to ask.

@@ -3,12 +3,19 @@
 use std::io::{IsTerminal as _, Write as _};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 use super::Failure;
+use crate::method::Method;
+use crate::render::{Allowance, Frame, View};
+use crate::scene::{Rays, Scene};
 use crate::system;
 
 /// 128 + SIGINT.
 pub(super) const INTERRUPTED: u8 = 130;
+
+/// How long a picture is worked on between two lines of progress.
+const SLICE: Duration = Duration::from_millis(200);
 
 /// Tells on standard error how far a long run is, if that is a terminal, and whether Ctrl-C was
 /// pressed.
@@ -16,6 +23,8 @@ pub(super) struct Progress {
     what: &'static str,
     all: usize,
     shown: Option<usize>,
+    /// The line that is on the terminal, if one is.
+    line: Option<String>,
     interrupt: Arc<AtomicBool>,
 }
 
@@ -28,6 +37,7 @@ impl Progress {
             what,
             all,
             shown: None,
+            line: None,
             interrupt,
         })
     }
@@ -38,6 +48,7 @@ impl Progress {
             what,
             all,
             shown: None,
+            line: None,
             interrupt: Arc::default(),
         }
     }
@@ -47,9 +58,33 @@ impl Progress {
         if self.shown != Some(number) {
             self.shown = Some(number);
             let Self { what, all, .. } = self;
-            say(&format!("\r\x1b[K{what}: {name}, {} of {all}", number + 1));
+            self.line = Some(format!("{what}: {name}, {} of {all}", number + 1));
+            self.say_how_far("");
         }
         !self.interrupted()
+    }
+
+    /// Renders a frame; of one that takes long it tells how much is done.
+    pub fn render(
+        &mut self,
+        frame: &mut Frame,
+        (scene, rays): (&Scene, &Rays),
+        (method, view): (Method, View),
+    ) {
+        frame.begin(scene, rays, method, view);
+        let slice = || Allowance::until(Instant::now() + SLICE);
+        while !frame.go_on(scene, rays, &mut slice()) {
+            let percent = 100.0 * frame.share_done();
+            self.line
+                .get_or_insert_with(|| format!("{}: the picture", self.what));
+            self.say_how_far(&format!(", {percent:.0}% drawn"));
+        }
+    }
+
+    fn say_how_far(&self, more: &str) {
+        if let Some(line) = &self.line {
+            say(&format!("\r\x1b[K{line}{more}"));
+        }
     }
 
     pub fn interrupted(&self) -> bool {
@@ -58,7 +93,7 @@ impl Progress {
 
     /// Takes the line of progress away.
     pub fn clear(&self) {
-        if self.shown.is_some() {
+        if self.line.is_some() {
             say("\r\x1b[K");
         }
     }

@@ -15,30 +15,40 @@ use crate::terminal::{Limits, Painter};
 pub(super) struct UnseenTerminal {
     painter: Painter,
     shown_by_ratatui: Buffer,
+    written: Vec<u8>,
 }
 
 impl UnseenTerminal {
     pub const DEPTH: ColorDepth = ColorDepth::Ansi256;
 }
 
-impl CellOutput for UnseenTerminal {
-    fn show(&mut self, image: &Image) -> usize {
-        self.painter
-            .paint(&mut buffer_of(image), None, Limits::default())
-            .len()
+impl UnseenTerminal {
+    /// Shows these cells; how many bytes that took. Others come back in their place.
+    pub fn paint(&mut self, cells: &mut Buffer) -> usize {
+        self.painter.paint(cells, None, Limits::default()).len()
     }
 
-    fn show_by_ratatui(&mut self, image: &Image) -> usize {
-        let cells = buffer_of(image);
+    /// The same by ratatui's own backend, on a screen of its own.
+    pub fn paint_by_ratatui(&mut self, cells: &mut Buffer) -> usize {
         let shown = &mut self.shown_by_ratatui;
         if shown.area != cells.area {
             *shown = Buffer::empty(cells.area);
         }
-        let mut bytes = Vec::new();
+        self.written.clear();
         // Writing to memory does not fail.
-        let _ = CrosstermBackend::new(&mut bytes).draw(shown.diff(&cells).into_iter());
-        *shown = cells;
-        bytes.len()
+        let _ = CrosstermBackend::new(&mut self.written).draw(shown.diff(cells).into_iter());
+        std::mem::swap(shown, cells);
+        self.written.len()
+    }
+}
+
+impl CellOutput for UnseenTerminal {
+    fn show(&mut self, image: &Image) -> usize {
+        self.paint(&mut buffer_of(image))
+    }
+
+    fn show_by_ratatui(&mut self, image: &Image) -> usize {
+        self.paint_by_ratatui(&mut buffer_of(image))
     }
 }
 

@@ -5,7 +5,7 @@
 
 mod report;
 
-pub use report::{json, markdown, records, text};
+pub use report::{brief, json, markdown, records, text};
 
 use std::hint::black_box;
 

@@ -194,6 +194,8 @@ impl Plan {
         let way = match (method, view) {
             // It takes A for 1. So it is for parallel rays, to a few roundings; else its error has no bound.
             (Method::Unit, _) if rays.perspective => Strategy::Everything,
+            // Nor has that of a method that is somebody's own.
+            (Method::Routine(_), _) => Strategy::Everything,
             (_, View::Delta | View::Stage) => Strategy::Widened,
             (Method::Exact, _) => Strategy::Certified,
             _ => Strategy::Widened,

@@ -68,7 +68,9 @@ impl<'a> Question<'a> {
     /// The same asked of `exact`, to hold the method to it.
     pub(super) fn of_exact(self) -> Self {
         let way = match self.interest.way {
-            Strategy::Everything if self.method != Method::Unit => Strategy::Everything,
+            Strategy::Everything if !matches!(self.method, Method::Unit | Method::Routine(_)) => {
+                Strategy::Everything
+            }
             _ => Strategy::Certified,
         };
         Self {

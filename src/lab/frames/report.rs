@@ -128,7 +128,7 @@ fn remarks(times: &FrameTimes) -> Vec<String> {
 }
 
 /// Milliseconds with three digits that count, be there few of them.
-fn brief(ms: f64) -> String {
+pub fn brief(ms: f64) -> String {
     let decimals = match ms {
         _ if ms >= 99.95 => 0,
         _ if ms >= 9.995 => 1,
@@ -224,7 +224,7 @@ pub fn json(times: &FrameTimes, machine: &Machine) -> String {
 }
 
 /// The columns of the CSV; an empty `no_plan_ms` would take over a minute.
-const COLUMNS: [DataColumn<FrameRow>; 16] = [
+const COLUMNS: [DataColumn<FrameRow>; 18] = [
     ("spheres", |row| row.spheres.to_string()),
     ("width", |row| row.size.width.to_string()),
     ("height", |row| row.size.height.to_string()),
@@ -241,6 +241,8 @@ const COLUMNS: [DataColumn<FrameRow>; 16] = [
     ("diff_ms", |row| row.parts.diff.to_string()),
     ("encode_ms", |row| row.parts.encode.to_string()),
     ("bytes", |row| row.bytes.to_string()),
+    ("ratatui_ms", |row| row.parts.ratatui.to_string()),
+    ("ratatui_bytes", |row| row.ratatui_bytes.to_string()),
     ("covered", |row| row.covered.to_string()),
     ("pays", |row| row.pays().to_string()),
 ];
