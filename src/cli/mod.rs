@@ -2,6 +2,8 @@
 
 mod appearance;
 mod bench;
+#[cfg(feature = "routine")]
+mod check;
 mod completions;
 mod explore;
 mod failure;
@@ -11,6 +13,7 @@ mod place;
 mod plan;
 mod print;
 mod progress;
+mod routine;
 mod rows;
 mod scenes;
 mod screens;
@@ -52,10 +55,13 @@ struct Arguments {
 #[derive(Debug, Subcommand)]
 enum CliCommand {
     Bench(bench::BenchArgs),
+    #[cfg(feature = "routine")]
+    Check(check::CheckArgs),
     Completions(completions::Completions),
     Grade(grade::GradeArgs),
     Plan(plan::PlanArgs),
     Print(print::Print),
+    Routine(routine::RoutineArgs),
     Scenes(scenes::Scenes),
     Solve(solve::Solve),
     Stress(stress::StressArgs),
@@ -75,11 +81,14 @@ pub fn main() -> ExitCode {
 fn run(arguments: &Arguments) -> Outcome {
     match &arguments.command {
         None => explore::run(&arguments.explore),
+        #[cfg(feature = "routine")]
+        Some(CliCommand::Check(arguments)) => check::run(arguments),
         Some(CliCommand::Completions(arguments)) => completions::run(arguments),
         Some(CliCommand::Bench(arguments)) => bench::run(arguments),
         Some(CliCommand::Grade(arguments)) => grade::run(arguments),
         Some(CliCommand::Plan(arguments)) => plan::run(arguments),
         Some(CliCommand::Print(arguments)) => print::run(arguments),
+        Some(CliCommand::Routine(arguments)) => routine::run(arguments),
         Some(CliCommand::Scenes(arguments)) => scenes::run(arguments),
         Some(CliCommand::Solve(arguments)) => solve::run(arguments),
         Some(CliCommand::Stress(arguments)) => stress::run(arguments),

@@ -6,6 +6,8 @@ pub mod bench;
 mod bench_lock;
 mod case;
 pub mod chart;
+#[cfg(feature = "routine")]
+pub mod check;
 pub mod dials;
 mod errors;
 pub mod families;
@@ -17,6 +19,7 @@ pub mod plot;
 pub mod promise;
 mod reference;
 mod second;
+pub mod slip;
 pub mod stress;
 pub mod timing;
 mod turn;

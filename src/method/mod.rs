@@ -23,6 +23,7 @@ mod routine;
 #[cfg(feature = "routine")]
 mod routine;
 pub(crate) mod simd;
+pub mod source;
 mod surd;
 mod tape;
 mod textbook;

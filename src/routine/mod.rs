@@ -21,7 +21,7 @@ mod fuzz;
 pub use front::Language;
 pub use program::{Note, Program, Returned};
 pub(crate) use run::{Lanes, Listener, Machine, Nobody, Noted, Place as ValuePlace};
-pub use run::{Outcome, ask};
+pub use run::{Outcome, RealNote, ask, listen};
 pub use signature::{Answers, NoHit};
 pub(crate) use value::{Arithmetic, Plain, Real};
 

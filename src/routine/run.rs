@@ -534,3 +534,45 @@ pub fn ask(program: &Program, p0: [f32; 3], d: [f32; 3], c: [f32; 3], r: f32) ->
     machine.run(program, 1, &mut Nobody);
     machine.outcome(program, 0)
 }
+
+/// Values that a routine had at a line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RealNote {
+    /// The line, from 1.
+    pub line: usize,
+    /// The real numbers, in order.
+    pub values: Vec<f64>,
+}
+
+/// What the lines of a routine give for one ray and sphere, in plain numbers.
+pub fn listen(program: &Program, [p0, d, c]: [[f32; 3]; 3], r: f32) -> Vec<RealNote> {
+    let mut notes = Notebook(Vec::new());
+    let mut machine = Machine::<super::value::Plain, 1>::new(program);
+    for (input, slot) in &program.inputs {
+        machine.give(*slot, 0, input.of(p0, d, c, r));
+    }
+    machine.run(program, 1, &mut notes);
+    notes.0
+}
+
+/// Writes values down, as many as anybody reads.
+struct Notebook(Vec<RealNote>);
+
+impl Listener<super::value::Plain> for Notebook {
+    const LISTENS: bool = true;
+
+    fn hear(&mut self, noted: Noted<'_, super::value::Plain>) {
+        if self.0.len() == 200 {
+            return;
+        }
+        let real = |value: &Place<super::value::Plain>| match value {
+            Place::Single(x) => Some(f64::from(*x)),
+            Place::Double(x) => Some(*x),
+            Place::Bool(_) | Place::Whole(_) => None,
+        };
+        self.0.push(RealNote {
+            line: noted.note.line,
+            values: noted.values.iter().filter_map(real).collect(),
+        });
+    }
+}

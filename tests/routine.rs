@@ -1,0 +1,280 @@
+//! One's own routines: the corpus, the methods as text, slips and weaknesses, the program that uses them.
+
+#![cfg(feature = "routine")]
+
+use std::path::Path;
+use std::process::Command;
+
+use rayscope::lab::check::check;
+use rayscope::lab::families::Family;
+use rayscope::method::source::{SourceLanguage, source};
+use rayscope::method::{Class, Method, RoutineId};
+use rayscope::routine::Language;
+
+/// The routine in a text.
+fn learn(name: &str, text: &str) -> RoutineId {
+    let language = Language::of(name).unwrap();
+    RoutineId::learn(name, name, text, language).unwrap_or_else(|e| panic!("{name}: {e}\n{text}"))
+}
+
+fn corpus() -> Vec<(String, RoutineId)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/routines");
+    let mut names: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|e| e.unwrap().path())
+        .collect();
+    names.sort();
+    names
+        .into_iter()
+        .map(|path| {
+            let name = path.file_name().unwrap().to_string_lossy().into_owned();
+            let text = std::fs::read_to_string(&path).unwrap();
+            let id = learn(&name, &text);
+            (name, id)
+        })
+        .collect()
+}
+
+fn bits(x: f32) -> u32 {
+    if x.is_nan() {
+        u32::MAX
+    } else {
+        (x + 0.0).to_bits()
+    }
+}
+
+/// How many rays of each family are asked; `.ci/run` asks for more.
+fn rays() -> usize {
+    std::env::var("RAYSCOPE_ROUTINE_RAYS")
+        .ok()
+        .and_then(|n| n.parse().ok())
+        .unwrap_or(400)
+}
+
+#[test]
+fn a_method_as_text_is_that_method_bit_for_bit() {
+    for method in Method::ALL {
+        for (language, name) in [
+            (SourceLanguage::Glsl, "copy.glsl"),
+            (SourceLanguage::Wgsl, "copy.wgsl"),
+        ] {
+            let Ok(text) = source(method, language) else {
+                let none = method == Method::Exact
+                    || language == SourceLanguage::Wgsl && method == Method::Double;
+                assert!(none, "{method} in {name}");
+                continue;
+            };
+            let copy = Method::Routine(learn(&format!("{method}-{name}"), &text));
+            for family in Family::ALL {
+                for (ray, sphere) in family.sample(3, rays()) {
+                    let [own, copied] = [method, copy].map(|m| m.solve(&ray, &sphere));
+                    let what = format!(
+                        "{method} {name} {}: {ray:?} {sphere:?} {own:?} {copied:?}",
+                        family.name
+                    );
+                    if own.class == Class::Nan || own.near.is_nan() || own.far.is_nan() {
+                        assert!(!own.class.meets() || copied.class == Class::Nan, "{what}");
+                        assert_eq!(
+                            copied.class == Class::Miss,
+                            own.class == Class::Miss,
+                            "{what}"
+                        );
+                        continue;
+                    }
+                    assert_eq!(own.class.meets(), copied.class.meets(), "{what}");
+                    assert_eq!(
+                        [own.near, own.far].map(bits),
+                        [copied.near, copied.far].map(bits),
+                        "{what}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn in_arrays_each_ray_gets_the_answer_that_it_gets_alone() {
+    use rayscope::method::batch::Solutions;
+    let problems: Vec<_> = ["typical", "inside", "tangent", "far-4e3"]
+        .into_iter()
+        .flat_map(|name| {
+            Family::ALL
+                .iter()
+                .find(|f| f.name == name)
+                .unwrap()
+                .sample(5, 77)
+        })
+        .collect();
+    for (name, id) in corpus() {
+        let method = Method::Routine(id);
+        let arrays = rayscope::lab::timing::Arrays::of(&problems);
+        let mut answers = Solutions::default();
+        rayscope::lab::timing::routine(method).solve_arrays(&arrays, &mut answers);
+        for (i, (ray, sphere)) in problems.iter().enumerate() {
+            let (alone, among) = (method.solve(ray, sphere), answers.get(i));
+            assert_eq!(alone.class, among.class, "{name} {i}");
+            assert_eq!(
+                [alone.near, alone.far].map(bits),
+                [among.near, among.far].map(bits),
+                "{name} {i}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_steps_of_a_routine_are_the_operations_that_gave_the_answer() {
+    for (name, id) in corpus() {
+        let method = Method::Routine(id);
+        for family in ["typical", "tangent", "far-1e6"] {
+            let family = Family::ALL.iter().find(|f| f.name == family).unwrap();
+            for (ray, sphere) in family.sample(7, 20) {
+                let trace = method.trace(&ray, &sphere);
+                assert!(!trace.steps.is_empty(), "{name}");
+                let last = trace.steps.last().unwrap();
+                if name.starts_with("textbook") && trace.solution.class.meets() {
+                    let given = last.result.parts();
+                    assert_eq!(
+                        bits(given[0].value as f32),
+                        bits(trace.solution.near),
+                        "{name}"
+                    );
+                    assert!(given[0].exact.is_some(), "{name}");
+                }
+            }
+        }
+    }
+}
+
+/// What each routine of the corpus is known for.
+#[test]
+fn the_corpus_is_judged_as_documented() {
+    // Name, slips, and a family on which it is weak.
+    let documented: [(&str, &[&str], &str); 16] = [
+        ("fused.glsl", &[], "far-1e6"),
+        ("geometric.glsl", &[], "far-4e3"),
+        ("half_b.glsl", &[], "far-4e3"),
+        ("hit_record.glsl", &["negative-t"], ""),
+        ("in_double.glsl", &[], ""),
+        ("iterated.glsl", &[], ""),
+        ("nearest_float.glsl", &[], "far-4e3"),
+        ("out_parameters.glsl", &[], "far-4e3"),
+        ("perpendicular.glsl", &[], "surface"),
+        ("projection.glsl", &["negative-t"], ""),
+        ("q_form.glsl", &[], "far-4e3"),
+        ("textbook.glsl", &[], "far-4e3"),
+        ("textbook.wgsl", &[], "far-4e3"),
+        ("unit_direction.glsl", &[], "end-minus-start"),
+        ("whether.glsl", &[], "far-4e3"),
+        ("with_t_min.glsl", &[], "far-4e3"),
+    ];
+    for ((name, id), (wanted, slips, weak)) in corpus().into_iter().zip(documented) {
+        assert_eq!(name, wanted);
+        if ["hit_record.glsl", "iterated.glsl"].contains(&wanted) {
+            // From inside neither sees the way out: no slip of the formula, and no rounding.
+            assert!(!check(id).right, "{name}");
+            continue;
+        }
+        let found = check(id);
+        let names: Vec<_> = found.slips.iter().map(|slip| slip.name()).collect();
+        assert_eq!(names, slips, "{name}: {found:?}");
+        let weak_on = |family: &str| found.weaknesses.iter().any(|(name, _)| *name == family);
+        assert!(
+            weak.is_empty() || weak_on(weak),
+            "{name}: {:?}",
+            found.weaknesses
+        );
+    }
+}
+
+#[test]
+fn each_slip_is_recognised_and_its_line_found() {
+    let right = "vec2 f(vec3 p0, vec3 d, vec3 c, float r) {\n  vec3 o = p0 - c;\n  float A = dot(d, d);\n  float B = 2.0 * dot(d, o);\n  float C = dot(o, o) - r * r;\n  float D = B * B - 4.0 * A * C;\n  if (D < 0.0) return vec2(-1.0);\n  float s = sqrt(D);\n  return vec2((-B - s) / (2.0 * A), (-B + s) / (2.0 * A));\n}";
+    let slips = [
+        ("", "", "", None),
+        ("missing-4", "4.0 * A * C", "A * C", Some(6)),
+        ("half-b", "2.0 * dot(d, o)", "dot(d, o)", Some(6)),
+        ("sign-of-o", "p0 - c", "c - p0", Some(9)),
+        ("r-for-r2", "r * r", "r", Some(5)),
+        ("tangent-is-a-miss", "D < 0.0", "D <= 0.0", None),
+        ("minus-b-over-a", "(2.0 * A)", "A", Some(9)),
+        (
+            "far-for-near",
+            "vec2((-B - s) / (2.0 * A), (-B + s) / (2.0 * A))",
+            "vec2((-B + s) / (2.0 * A), (-B - s) / (2.0 * A))",
+            None,
+        ),
+    ];
+    for (slip, from, to, line) in slips {
+        let text = if from.is_empty() {
+            right.to_owned()
+        } else {
+            right.replace(from, to)
+        };
+        let found = check(learn(&format!("slip-{slip}.glsl"), &text));
+        let names: Vec<_> = found.slips.iter().map(|s| s.name()).collect();
+        let wanted: Vec<_> = Some(slip).filter(|s| !s.is_empty()).into_iter().collect();
+        assert_eq!(names, wanted, "{found:?}");
+        assert_eq!(found.right, slip.is_empty());
+        assert_eq!(found.line, line, "{slip}");
+    }
+}
+
+fn rayscope(arguments: &[&str]) -> (String, String, i32) {
+    let output = Command::new(env!("CARGO_BIN_EXE_rayscope"))
+        .args(arguments)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .unwrap();
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    (
+        text(&output.stdout),
+        text(&output.stderr),
+        output.status.code().unwrap(),
+    )
+}
+
+#[test]
+fn the_program_takes_a_routine_where_it_takes_a_method() {
+    let own = "tests/routines/textbook.glsl";
+    let (screen, _, status) =
+        rayscope(&["print", "tutorial", "--style", "tutorial", "--method", own]);
+    assert_eq!((screen.matches("++").count(), status), (317, 0));
+    let numbers = ["--ray", "20,20,0,0,0,1", "--sphere", "20,20,20,10"];
+    let (steps, _, status) = rayscope(&[&["solve", "--method", own], &numbers[..]].concat());
+    assert!(
+        steps.contains(
+            "b = 2.0 * dot(direction, o)\n  = 2.0 * dot((0, 0, 1), (0, 0, −20))\n  = −40"
+        ),
+        "{steps}"
+    );
+    assert!(
+        steps.contains("line 3: from the centre to where the ray starts"),
+        "{steps}"
+    );
+    assert_eq!(status, 0);
+    let (_, error, status) = rayscope(&["print", "trio", "--method", "none.glsl"]);
+    assert!(error.contains("none.glsl: found no such file"), "{error}");
+    assert_eq!(status, 1);
+    let (report, _, status) = rayscope(&["check", own, "--format", "json"]);
+    assert!(
+        report.contains("\"verdict\": \"right\"") && status == 0,
+        "{report}"
+    );
+}
+
+#[test]
+fn a_replaced_text_frees_the_ones_before_it_and_old_handles_still_answer() {
+    let text =
+        |n: i32| format!("float f(vec3 ro, vec3 rd, vec3 ce, float ra) {{ return ra * {n}.0; }}");
+    let first = learn("typed.glsl", &text(1));
+    let held = std::sync::Arc::downgrade(&first.get());
+    for n in 2..30 {
+        learn("typed.glsl", &text(n));
+    }
+    assert!(held.upgrade().is_none(), "the first version is still held");
+    let ray = rayscope::geometry::Ray::new([0.0; 3].into(), [1.0, 0.0, 0.0].into()).unwrap();
+    let sphere = rayscope::geometry::Sphere::new([0.0; 3].into(), 1.0).unwrap();
+    assert_eq!(Method::Routine(first).solve(&ray, &sphere).near, 29.0);
+}
