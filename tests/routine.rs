@@ -23,6 +23,7 @@ fn corpus() -> Vec<(String, RoutineId)> {
         .unwrap()
         .map(|e| e.unwrap().path())
         .collect();
+    names.retain(|path| path.extension().is_some_and(|ending| ending != "c"));
     names.sort();
     names
         .into_iter()
@@ -133,7 +134,8 @@ fn the_steps_of_a_routine_are_the_operations_that_gave_the_answer() {
                 let trace = method.trace(&ray, &sphere);
                 assert!(!trace.steps.is_empty(), "{name}");
                 let last = trace.steps.last().unwrap();
-                if name.starts_with("textbook") && trace.solution.class.meets() {
+                let meets = trace.solution.class.meets() && trace.truth.class.meets();
+                if name.starts_with("textbook") && meets {
                     let given = last.result.parts();
                     assert_eq!(
                         bits(given[0].value as f32),

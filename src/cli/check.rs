@@ -6,7 +6,7 @@ use clap::Args;
 
 use super::failure::{DONE, INVALID};
 use super::{Failure, MethodName, Outcome, choice, write_out};
-use crate::lab::check::{self, Check};
+use crate::lab::check::{self, RoutineCheck};
 use crate::method::Method;
 use crate::report::Format;
 
@@ -42,7 +42,7 @@ pub(super) fn run(arguments: &CheckArgs) -> Outcome {
 }
 
 /// What was found, for people; writing to a `String` can't fail.
-fn text(name: &str, id: crate::method::RoutineId, found: &Check) -> String {
+fn text(name: &str, id: crate::method::RoutineId, found: &RoutineCheck) -> String {
     let routine = id.get();
     let program = &routine.program;
     let roles: Vec<String> = program
@@ -57,20 +57,20 @@ fn text(name: &str, id: crate::method::RoutineId, found: &Check) -> String {
         roles.join(", ")
     );
     for slip in &found.slips {
-        let _ = write!(out, "slip {}: {}\n", slip.name(), slip.words());
+        let _ = writeln!(out, "slip {}: {}", slip.name(), slip.words());
     }
     if let Some(line) = found.line {
-        let _ = write!(
+        let _ = writeln!(
             out,
-            "  line {line} parts from the mathematics: {}\n",
+            "  line {line} parts from the mathematics: {}",
             program.line(line).0
         );
     }
     if let Some(((ray, sphere), given, truth)) = &found.example {
         let list = |v: glam::Vec3| format!("{},{},{}", v.x, v.y, v.z);
-        let _ = write!(
+        let _ = writeln!(
             out,
-            "  it says {}, the truth is {}:\n  rayscope solve --method {name} --ray={},{} --sphere={},{}\n",
+            "  it says {}, the truth is {}:\n  rayscope solve --method {name} --ray={},{} --sphere={},{}",
             said(given),
             said(truth),
             list(ray.origin),
@@ -85,7 +85,7 @@ fn text(name: &str, id: crate::method::RoutineId, found: &Check) -> String {
         out += "wrong: no rounding explains this answer, and it is none of the known slips\n";
     }
     for (family, what) in &found.weaknesses {
-        let _ = write!(out, "  weak on {family}: {what}\n");
+        let _ = writeln!(out, "  weak on {family}: {what}");
     }
     out
 }

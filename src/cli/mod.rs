@@ -8,6 +8,7 @@ mod completions;
 mod explore;
 mod failure;
 mod grade;
+mod harness;
 mod output;
 mod place;
 mod plan;
@@ -59,6 +60,7 @@ enum CliCommand {
     Check(check::CheckArgs),
     Completions(completions::Completions),
     Grade(grade::GradeArgs),
+    Harness(harness::HarnessArgs),
     Plan(plan::PlanArgs),
     Print(print::Print),
     Routine(routine::RoutineArgs),
@@ -86,6 +88,7 @@ fn run(arguments: &Arguments) -> Outcome {
         Some(CliCommand::Completions(arguments)) => completions::run(arguments),
         Some(CliCommand::Bench(arguments)) => bench::run(arguments),
         Some(CliCommand::Grade(arguments)) => grade::run(arguments),
+        Some(CliCommand::Harness(arguments)) => harness::run(arguments),
         Some(CliCommand::Plan(arguments)) => plan::run(arguments),
         Some(CliCommand::Print(arguments)) => print::run(arguments),
         Some(CliCommand::Routine(arguments)) => routine::run(arguments),

@@ -13,14 +13,14 @@ pub(crate) struct OwnRoutine {
     pub(crate) name: String,
     pub(crate) path: PathBuf,
     /// What the file was like when it was read.
-    pub(crate) stamp: Stamp,
+    pub(crate) stamp: FileStamp,
 }
 
 /// By what a change of a file is noticed: when it was written, and how long it is.
-pub(crate) type Stamp = Option<(SystemTime, u64)>;
+pub(crate) type FileStamp = Option<(SystemTime, u64)>;
 
 /// What a file is like now; none where there is none.
-pub(crate) fn stamp(path: &Path) -> Stamp {
+pub(crate) fn stamp(path: &Path) -> FileStamp {
     let found = std::fs::metadata(path).ok()?;
     Some((found.modified().ok()?, found.len()))
 }

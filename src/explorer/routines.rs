@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError, Weak};
 use std::thread;
 use std::time::Duration;
 
-use crate::explorer::own_routine::{OwnRoutine, Stamp, stamp};
+use crate::explorer::own_routine::{FileStamp, OwnRoutine, stamp};
 use crate::explorer::state::State;
 use crate::method::Method;
 use crate::system::Waker;
@@ -84,7 +84,7 @@ pub(crate) fn catch_up(state: &mut State) -> bool {
 /// Looks at files on a thread of its own, and wakes who waits when one has changed.
 #[derive(Debug, Default)]
 pub(crate) struct Watch {
-    files: Arc<Mutex<Vec<(PathBuf, Stamp)>>>,
+    files: Arc<Mutex<Vec<(PathBuf, FileStamp)>>>,
     is_running: bool,
 }
 
@@ -111,7 +111,7 @@ impl Watch {
 }
 
 /// Until nobody holds the list any more.
-fn watch(files: &Weak<Mutex<Vec<(PathBuf, Stamp)>>>, waker: &Waker) {
+fn watch(files: &Weak<Mutex<Vec<(PathBuf, FileStamp)>>>, waker: &Waker) {
     while let Some(files) = files.upgrade() {
         let mut watched = files.lock().unwrap_or_else(PoisonError::into_inner);
         let mut changed = false;

@@ -12,7 +12,7 @@ use super::{Problem, numbers};
 use crate::geometry::{Ray, Sphere};
 use crate::method::{Class, Method, Place, RoutineId, Solution};
 use crate::random::Random;
-use crate::routine::{Answers, RealNote, listen};
+use crate::routine::{AnswerKind, RealNote, listen};
 use crate::text::hexadecimal;
 
 /// How far off an answer may be, as a part of the sizes around, before it is no matter of rounding.
@@ -27,7 +27,7 @@ const WEAK_ULPS: f64 = 4096.0;
 
 /// What was found.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Check {
+pub struct RoutineCheck {
     /// Whether no slip was made, and every plain ray is answered rightly up to rounding.
     pub right: bool,
     /// The slips that explain the answers.
@@ -101,7 +101,7 @@ fn tangents() -> Vec<Problem> {
 }
 
 /// Holds a routine against the truth.
-pub fn check(id: RoutineId) -> Check {
+pub fn check(id: RoutineId) -> RoutineCheck {
     let method = Method::Routine(id);
     let answers = id.answers();
     let problems = plain_rays();
@@ -111,7 +111,7 @@ pub fn check(id: RoutineId) -> Check {
         let (ray, sphere) = problem;
         let given = method.solve(ray, sphere);
         let truth = Method::Exact.solve(ray, sphere);
-        if answers == Answers::Visible && given.class == Class::Hit && given.near < 0.0 {
+        if answers == AnswerKind::Visible && given.class == Class::Hit && given.near < 0.0 {
             negative += 1;
         }
         if !agrees(&given, &truth, answers) {
@@ -141,7 +141,12 @@ pub fn check(id: RoutineId) -> Check {
     let right = slips.is_empty() && wrong.is_empty();
     let example = wrong.first().copied();
     let line = match (&example, right) {
-        (Some((problem, ..)), false) => parting_line(id, problem),
+        (Some((problem, ..)), false) => {
+            // A length other than 1 tells A from 1 and 2A from 2.
+            let (mut ray, sphere) = *problem;
+            ray.direction *= 1.75;
+            parting_line(id, problem).or_else(|| parting_line(id, &(ray, sphere)))
+        }
         _ => None,
     };
     let weaknesses = if right {
@@ -149,7 +154,7 @@ pub fn check(id: RoutineId) -> Check {
     } else {
         Vec::new()
     };
-    Check {
+    RoutineCheck {
         right,
         slips,
         example,
@@ -163,19 +168,19 @@ fn near_to(given: f32, wanted: f64, size: f64) -> bool {
 }
 
 /// Whether an answer is the truth's up to rounding.
-fn agrees(given: &Solution, truth: &Solution, answers: Answers) -> bool {
+fn agrees(given: &Solution, truth: &Solution, answers: AnswerKind) -> bool {
     let seen = truth.visible();
     match answers {
         // Behind the eye, either is fine.
-        Answers::Whether => {
+        AnswerKind::Whether => {
             truth.place() == Some(Place::Behind) || given.class.meets() == truth.class.meets()
         }
-        Answers::Visible => match (given.visible(), seen) {
+        AnswerKind::Visible => match (given.visible(), seen) {
             (Some(t), Some(wanted)) => near_to(t, wanted.into(), 0.1),
             (None, None) => given.class != Class::Nan,
             _ => false,
         },
-        Answers::Roots => {
+        AnswerKind::Roots => {
             given.class.meets() == truth.class.meets()
                 && given.class != Class::Nan
                 && (!truth.class.meets()
@@ -187,7 +192,7 @@ fn agrees(given: &Solution, truth: &Solution, answers: Answers) -> bool {
 }
 
 /// Whether the answers are those of the slip.
-fn explains(slip: Slip, method: Method, answers: Answers, problems: &[Problem]) -> bool {
+fn explains(slip: Slip, method: Method, answers: AnswerKind, problems: &[Problem]) -> bool {
     let mut asked = 0;
     let mut found = 0;
     for problem in problems {
@@ -201,13 +206,13 @@ fn explains(slip: Slip, method: Method, answers: Answers, problems: &[Problem]) 
         asked += 1;
         let meets = discriminant >= 0.0;
         let fits = match answers {
-            Answers::Whether => given.class.meets() == meets,
-            Answers::Roots if meets => {
+            AnswerKind::Whether => given.class.meets() == meets,
+            AnswerKind::Roots if meets => {
                 let says_none = !given.class.meets() && near.max(far) <= 0.0;
                 says_none || near_to(given.near, near, 0.1) && near_to(given.far, far, 0.1)
             }
-            Answers::Roots => !given.class.meets(),
-            Answers::Visible => {
+            AnswerKind::Roots => !given.class.meets(),
+            AnswerKind::Visible => {
                 let seen = [near, far].into_iter().find(|t| *t > 0.0);
                 let t = f64::from(given.near);
                 match given.class {
@@ -319,7 +324,7 @@ fn weaknesses(method: Method) -> Vec<(&'static str, String)> {
 }
 
 #[derive(Serialize)]
-struct CheckJson<'a> {
+struct RoutineCheckJson<'a> {
     routine: &'a str,
     verdict: &'static str,
     slips: Vec<&'static str>,
@@ -329,8 +334,8 @@ struct CheckJson<'a> {
 }
 
 /// What was found, as one JSON object.
-pub fn json(name: &str, check: &Check) -> String {
-    crate::report::json(&CheckJson {
+pub fn json(name: &str, check: &RoutineCheck) -> String {
+    crate::report::json(&RoutineCheckJson {
         routine: name,
         verdict: if check.right { "right" } else { "wrong" },
         slips: check.slips.iter().map(|slip| slip.name()).collect(),

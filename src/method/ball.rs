@@ -18,7 +18,7 @@ const LARGEST_SURD: i64 = 6000;
 
 /// A number without rounding: itself, or within a ball.
 #[derive(Debug, Clone)]
-pub(super) enum Exact {
+pub(super) enum Unrounded {
     Surd(Surd),
     Ball(Ball),
 }
@@ -31,7 +31,7 @@ pub(super) struct Ball {
     bound: Option<(f64, i64)>,
 }
 
-impl Exact {
+impl Unrounded {
     /// The number, if enough of it is known to be shown.
     pub fn told(&self) -> Option<Surd> {
         match self {
@@ -271,15 +271,15 @@ fn normal(m: f64, e: i64) -> (f64, i64) {
 mod tests {
     use super::*;
 
-    fn exact(x: f64) -> Exact {
-        Exact::Surd(Surd::from_f64(x).unwrap())
+    fn exact(x: f64) -> Unrounded {
+        Unrounded::Surd(Surd::from_f64(x).unwrap())
     }
 
     #[test]
     fn a_root_of_a_root_is_known_to_two_hundred_bits() {
         let two = exact(2.0);
         let fourth = two.sqrt().unwrap().sqrt().unwrap();
-        assert!(matches!(fourth, Exact::Ball(_)));
+        assert!(matches!(fourth, Unrounded::Ball(_)));
         let square = fourth.mul(&fourth).unwrap();
         let back = square.mul(&square).unwrap();
         let off = back.sub(&two).unwrap();

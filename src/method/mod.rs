@@ -33,7 +33,7 @@ mod unit;
 
 pub use dyadic::Dyadic;
 #[cfg(feature = "routine")]
-pub use routine::Routine;
+pub use routine::LearntRoutine;
 pub use routine::RoutineId;
 pub use surd::{DecimalDigits, Surd};
 pub use trace::Trace;

@@ -13,7 +13,7 @@ use super::{Class, Place, Solution};
 use crate::door::{Expected, FileError, TextPosition};
 use crate::geometry::{Ray, Sphere};
 use crate::routine::{
-    self, Answers, Lanes, Language, Machine, Nobody, Outcome, Plain, Program, RoutineError,
+    self, AnswerKind, Lanes, Language, Nobody, Plain, Program, RoutineError, RunOutcome, Runner,
 };
 
 /// The most names that are known at once.
@@ -30,7 +30,7 @@ pub struct RoutineId {
 
 /// A routine with its text.
 #[derive(Debug)]
-pub struct Routine {
+pub struct LearntRoutine {
     /// As it was read.
     pub text: String,
     /// What it was compiled to.
@@ -41,7 +41,7 @@ pub struct Routine {
 struct Shelf {
     key: String,
     name: &'static str,
-    versions: VecDeque<(u32, Arc<Routine>)>,
+    versions: VecDeque<(u32, Arc<LearntRoutine>)>,
 }
 
 static LIBRARY: RwLock<Vec<Shelf>> = RwLock::new(Vec::new());
@@ -80,7 +80,7 @@ impl RoutineId {
             return Ok(known);
         }
         let program = routine::compile(text, language)?;
-        let routine = Arc::new(Routine {
+        let routine = Arc::new(LearntRoutine {
             text: text.to_owned(),
             program,
         });
@@ -141,7 +141,7 @@ impl RoutineId {
     }
 
     /// The routine: that version, or the newest if it is gone.
-    pub fn get(self) -> Arc<Routine> {
+    pub fn get(self) -> Arc<LearntRoutine> {
         let library = LIBRARY.read().unwrap_or_else(PoisonError::into_inner);
         let versions = &library[usize::from(self.shelf)].versions;
         let kept = versions
@@ -152,12 +152,12 @@ impl RoutineId {
     }
 
     /// What it answers.
-    pub fn answers(self) -> Answers {
+    pub fn answers(self) -> AnswerKind {
         with_room::<1, _>(self, |room| room.routine.program.answers())
     }
 
     pub(super) fn gives_one_at_most(self) -> bool {
-        self.answers() != Answers::Roots
+        self.answers() != AnswerKind::Roots
     }
 
     pub(super) fn solve(self, ray: &Ray, sphere: &Sphere) -> Solution {
@@ -192,13 +192,13 @@ impl RoutineId {
 }
 
 /// A routine with room to run it.
-struct Room<const N: usize> {
+struct RunRoom<const N: usize> {
     id: RoutineId,
-    routine: Arc<Routine>,
-    machine: Machine<Plain, N>,
+    routine: Arc<LearntRoutine>,
+    machine: Runner<Plain, N>,
 }
 
-impl<const N: usize> Room<N> {
+impl<const N: usize> RunRoom<N> {
     fn give(&mut self, lane: usize, ray: &Ray, sphere: &Sphere) {
         let [p0, d, c] = [ray.origin, ray.direction, sphere.center].map(|v| v.to_array());
         for &(input, slot) in self.routine.program.inputs() {
@@ -216,34 +216,34 @@ impl<const N: usize> Room<N> {
         match solution(self.machine.outcome(program, lane)) {
             Solution {
                 class: Class::Miss, ..
-            } if program.answers() != Answers::Roots => Solution::UNSEEN,
+            } if program.answers() != AnswerKind::Roots => Solution::UNSEEN,
             answer => answer,
         }
     }
 }
 
 /// What a routine's outcome is as an answer.
-pub(super) fn solution(outcome: Outcome<f64>) -> Solution {
+pub(super) fn solution(outcome: RunOutcome<f64>) -> Solution {
     match outcome {
-        Outcome::Miss => Solution::MISS,
-        Outcome::TooLong => Solution::without_roots(Class::Nan),
-        Outcome::Hit => Solution {
+        RunOutcome::Miss => Solution::MISS,
+        RunOutcome::TooLong => Solution::without_roots(Class::Nan),
+        RunOutcome::Hit => Solution {
             class: Class::Hit,
             near: f32::NAN,
             far: f32::NAN,
             place: Some(Place::Hit),
         },
-        Outcome::One(t) if t.is_nan() => Solution::without_roots(Class::Nan),
-        Outcome::One(t) => Solution {
+        RunOutcome::One(t) if t.is_nan() => Solution::without_roots(Class::Nan),
+        RunOutcome::One(t) => Solution {
             class: Class::Hit,
             near: t as f32 + 0.0,
             far: f32::NAN,
             place: Some(if t > 0.0 { Place::Hit } else { Place::Behind }),
         },
-        Outcome::Two(near, far, _) if near.is_nan() || far.is_nan() => {
+        RunOutcome::Two(near, far, _) if near.is_nan() || far.is_nan() => {
             Solution::without_roots(Class::Nan)
         }
-        Outcome::Two(near, far, count) => {
+        RunOutcome::Two(near, far, count) => {
             let [near, far] = [near, far].map(|t| t as f32);
             // What gives two roots and does not say how many: the same twice is one.
             let one = count.map_or(near == far, |count| count == 1);
@@ -253,34 +253,34 @@ pub(super) fn solution(outcome: Outcome<f64>) -> Solution {
     }
 }
 
-type Kept<const N: usize> = RefCell<Option<Room<N>>>;
+type KeptRoom<const N: usize> = RefCell<Option<RunRoom<N>>>;
 
 thread_local! {
     // The last routine that was asked on this thread: a picture asks the same one over and over.
-    static ONE: Kept<1> = const { RefCell::new(None) };
-    static MANY: Kept<{ Lanes::COUNT }> = const { RefCell::new(None) };
+    static ONE: KeptRoom<1> = const { RefCell::new(None) };
+    static MANY: KeptRoom<{ Lanes::COUNT }> = const { RefCell::new(None) };
 }
 
 /// Where a width keeps its room.
 trait Keeps<const N: usize> {
-    fn keep<T>(work: impl FnOnce(&Kept<N>) -> T) -> T;
+    fn keep<T>(work: impl FnOnce(&KeptRoom<N>) -> T) -> T;
 }
 
 struct Shop;
 
 impl Keeps<1> for Shop {
-    fn keep<T>(work: impl FnOnce(&Kept<1>) -> T) -> T {
+    fn keep<T>(work: impl FnOnce(&KeptRoom<1>) -> T) -> T {
         ONE.with(work)
     }
 }
 
 impl Keeps<{ Lanes::COUNT }> for Shop {
-    fn keep<T>(work: impl FnOnce(&Kept<{ Lanes::COUNT }>) -> T) -> T {
+    fn keep<T>(work: impl FnOnce(&KeptRoom<{ Lanes::COUNT }>) -> T) -> T {
         MANY.with(work)
     }
 }
 
-fn with_room<const N: usize, T>(id: RoutineId, work: impl FnOnce(&mut Room<N>) -> T) -> T
+fn with_room<const N: usize, T>(id: RoutineId, work: impl FnOnce(&mut RunRoom<N>) -> T) -> T
 where
     Shop: Keeps<N>,
 {
@@ -288,8 +288,8 @@ where
         let mut kept = kept.borrow_mut();
         if kept.as_ref().is_none_or(|room| room.id != id) {
             let routine = id.get();
-            let machine = Machine::new(&routine.program);
-            *kept = Some(Room {
+            let machine = Runner::new(&routine.program);
+            *kept = Some(RunRoom {
                 id,
                 routine,
                 machine,

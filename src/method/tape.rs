@@ -9,7 +9,7 @@ use std::cmp::Ordering;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use super::Precision;
-use super::ball::Exact;
+use super::ball::Unrounded;
 use super::number::Scalar;
 use super::surd::Surd;
 use crate::number::Number;
@@ -42,7 +42,7 @@ pub(super) struct Entry {
     pub value: f64,
     /// The result of the same operations on the same inputs, none of them rounded; none where the
     /// operation has no result, as the root of a negative number.
-    pub exact: Option<Exact>,
+    pub exact: Option<Unrounded>,
 }
 
 /// An operation of IEEE 754.
@@ -93,7 +93,7 @@ impl Tape {
         self.0.borrow().get(entry).cloned()
     }
 
-    fn exact(&self, operand: Operand) -> Option<Exact> {
+    fn exact(&self, operand: Operand) -> Option<Unrounded> {
         match operand {
             Operand::Constant(value) => exactly(value),
             Operand::Entry(i) => self.0.borrow().get(i)?.exact.clone(),
@@ -105,7 +105,7 @@ impl Tape {
         operation: Option<Operation>,
         operands: Vec<Operand>,
         value: F,
-        exact: Option<Exact>,
+        exact: Option<Unrounded>,
     ) -> Traced<'_, F> {
         let mut entries = self.0.borrow_mut();
         entries.push(Entry {
@@ -147,7 +147,7 @@ impl<F: Float> Traced<'_, F> {
         self.unrounded()?.told()
     }
 
-    fn unrounded(self) -> Option<Exact> {
+    fn unrounded(self) -> Option<Unrounded> {
         match self.place {
             Some((tape, entry)) => tape.exact(Operand::Entry(entry)),
             None => exactly(self.value),
@@ -218,8 +218,8 @@ impl<'t> Traced<'t, f64> {
     }
 }
 
-fn exactly(value: impl Into<f64>) -> Option<Exact> {
-    Surd::from_f64(value.into()).map(Exact::Surd)
+fn exactly(value: impl Into<f64>) -> Option<Unrounded> {
+    Surd::from_f64(value.into()).map(Unrounded::Surd)
 }
 
 macro_rules! traced_operator {

@@ -5,7 +5,7 @@ use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{Module, ShaderStage, Span, WithSpan};
 
 use super::RoutineError;
-use super::guard::Source;
+use super::guard::RoutineSource;
 
 /// What a routine is written in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -29,13 +29,13 @@ impl Language {
 }
 
 /// A module with what the validator found out about it.
-pub(super) struct Parsed {
+pub(super) struct ParsedModule {
     pub module: Module,
     pub info: ModuleInfo,
 }
 
 /// Reads and validates.
-pub(super) fn parse(source: &Source) -> Result<Parsed, RoutineError> {
+pub(super) fn parse(source: &RoutineSource) -> Result<ParsedModule, RoutineError> {
     let module = match source.language {
         Language::Glsl => read_glsl(source)?,
         Language::Wgsl => read_wgsl(source)?,
@@ -48,10 +48,10 @@ pub(super) fn parse(source: &Source) -> Result<Parsed, RoutineError> {
     let info = Validator::new(flags, Capabilities::FLOAT64)
         .validate(&module)
         .map_err(|error| invalid(source, &error))?;
-    Ok(Parsed { module, info })
+    Ok(ParsedModule { module, info })
 }
 
-fn read_glsl(source: &Source) -> Result<Module, RoutineError> {
+fn read_glsl(source: &RoutineSource) -> Result<Module, RoutineError> {
     let options = glsl::Options::from(ShaderStage::Fragment);
     glsl::Frontend::default()
         .parse(&options, &source.code)
@@ -78,14 +78,14 @@ fn read_glsl(source: &Source) -> Result<Module, RoutineError> {
         })
 }
 
-fn read_wgsl(source: &Source) -> Result<Module, RoutineError> {
+fn read_wgsl(source: &RoutineSource) -> Result<Module, RoutineError> {
     wgsl::parse_str(&source.code).map_err(|error| {
         let span = error.labels().next().map(|(span, _)| span);
         at(source, span.unwrap_or_default(), sentence(error.message()))
     })
 }
 
-fn invalid(source: &Source, error: &WithSpan<naga::valid::ValidationError>) -> RoutineError {
+fn invalid(source: &RoutineSource, error: &WithSpan<naga::valid::ValidationError>) -> RoutineError {
     let span = error.spans().map(|(span, _)| *span).find(Span::is_defined);
     let mut problem = error.as_inner().to_string();
     let mut cause: Option<&dyn std::error::Error> = std::error::Error::source(error.as_inner());
@@ -96,7 +96,7 @@ fn invalid(source: &Source, error: &WithSpan<naga::valid::ValidationError>) -> R
     at(source, span.unwrap_or_default(), sentence(&problem))
 }
 
-fn at(source: &Source, span: Span, problem: String) -> RoutineError {
+fn at(source: &RoutineSource, span: Span, problem: String) -> RoutineError {
     source.error(span.to_range().map_or(0, |range| range.start), problem)
 }
 

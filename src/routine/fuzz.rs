@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 
-use super::{Language, Outcome, RoutineError, ask, compile};
+use super::{Language, RoutineError, RunOutcome, ask, compile};
 
 const SEEDS: [&str; 4] = [
     include_str!("../../tests/routines/half_b.glsl"),
@@ -189,7 +189,7 @@ fn a_loop_ends_after_ten_thousand_operations() {
         );
         let program = compile(&text, Language::Glsl).unwrap();
         let outcome = ask(&program, [0.0; 3], [1.0; 3], [0.0; 3], 1.0);
-        assert_eq!(outcome, Outcome::TooLong, "{body}");
+        assert_eq!(outcome, RunOutcome::TooLong, "{body}");
     }
 }
 
@@ -226,6 +226,6 @@ fn what_can_not_be_told_is_refused_in_a_sentence_with_its_line() {
     let program = compile(said, Language::Glsl).unwrap();
     assert_eq!(
         ask(&program, [7.0; 3], [1.0; 3], [0.0; 3], 1.0),
-        Outcome::One(7.0)
+        RunOutcome::One(7.0)
     );
 }

@@ -2,7 +2,7 @@
 //! asks it to.
 
 use super::front::Language;
-use super::lines::{self, Line};
+use super::lines::{self, SourceLine};
 use super::{LONGEST, RoutineError};
 
 /// How deep brackets may nest.
@@ -21,17 +21,17 @@ const LONGEST_MACRO: usize = 80;
 
 /// A text that may be read.
 #[derive(Debug, Clone)]
-pub(super) struct Source {
+pub(super) struct RoutineSource {
     pub language: Language,
     /// As the reader gets it: as long as the person's, comments and what it refuses left blank, and for GLSL a
     /// `main` behind it.
     pub code: String,
-    pub lines: Vec<Line>,
+    pub lines: Vec<SourceLine>,
     /// Where each line starts.
     starts: Vec<usize>,
 }
 
-impl Source {
+impl RoutineSource {
     /// The line and the column, from 1, of a byte.
     pub fn place(&self, byte: usize) -> (usize, usize) {
         let line = self.starts.partition_point(|&start| start <= byte);
@@ -53,7 +53,7 @@ impl Source {
 
     /// What a comment line of the form `// word: …` says; the last one counts.
     pub fn said(&self, word: &str) -> Option<(usize, &str)> {
-        let said = |line: &'_ Line| {
+        let said = |line: &'_ SourceLine| {
             let (head, rest) = line.comment.split_once(':')?;
             head.trim()
                 .eq_ignore_ascii_case(word)
@@ -68,7 +68,7 @@ impl Source {
 }
 
 /// Checks the text, and takes out of it what the reader does not read.
-pub(super) fn check(text: &str, language: Language) -> Result<Source, RoutineError> {
+pub(super) fn check(text: &str, language: Language) -> Result<RoutineSource, RoutineError> {
     if text.len() > LONGEST {
         return Err(RoutineError {
             line: 1,
@@ -83,7 +83,7 @@ pub(super) fn check(text: &str, language: Language) -> Result<Source, RoutineErr
     let starts = std::iter::once(0)
         .chain(code.match_indices('\n').map(|(i, _)| i + 1))
         .collect();
-    let mut source = Source {
+    let mut source = RoutineSource {
         language,
         code,
         lines,
@@ -101,7 +101,7 @@ pub(super) fn check(text: &str, language: Language) -> Result<Source, RoutineErr
 }
 
 /// Code is plain ASCII without backslashes.
-fn characters(source: &Source) -> Result<(), RoutineError> {
+fn characters(source: &RoutineSource) -> Result<(), RoutineError> {
     let strange = |c: char| !c.is_ascii() || c == '\\' || c == '\0';
     match source.code.char_indices().find(|&(_, c)| strange(c)) {
         Some((at, c)) => Err(source.error(
@@ -116,7 +116,7 @@ fn characters(source: &Source) -> Result<(), RoutineError> {
 }
 
 /// The code with blanks in place of `#version`, `#extension` and `precision`; a macro is a name for few words.
-fn without_directives(source: &Source) -> Result<String, RoutineError> {
+fn without_directives(source: &RoutineSource) -> Result<String, RoutineError> {
     let mut code = String::with_capacity(source.code.len());
     let mut macros: Vec<&str> = Vec::new();
     let mut bodies: Vec<(usize, &str)> = Vec::new();
@@ -174,7 +174,7 @@ fn without_directives(source: &Source) -> Result<String, RoutineError> {
 
 /// The name that is defined, and what it means.
 fn definition<'a>(
-    source: &Source,
+    source: &RoutineSource,
     at: usize,
     directive: &'a str,
 ) -> Result<(&'a str, &'a str), RoutineError> {
@@ -205,8 +205,8 @@ fn words(code: &str) -> impl Iterator<Item = &str> {
 }
 
 /// Brackets match and are not deep, statements are not long, branches not many.
-fn shape(source: &Source) -> Result<(), RoutineError> {
-    let mut shape = Shape::default();
+fn shape(source: &RoutineSource) -> Result<(), RoutineError> {
+    let mut shape = TextShape::default();
     let code = &source.code;
     let bytes = code.as_bytes();
     let mut at = 0;
@@ -230,15 +230,15 @@ fn shape(source: &Source) -> Result<(), RoutineError> {
 }
 
 #[derive(Default)]
-struct Shape {
+struct TextShape {
     open: Vec<(usize, u8)>,
     signs: usize,
     branches: usize,
     chain: usize,
 }
 
-impl Shape {
-    fn word(&mut self, source: &Source, at: usize, word: &str) -> Result<(), RoutineError> {
+impl TextShape {
+    fn word(&mut self, source: &RoutineSource, at: usize, word: &str) -> Result<(), RoutineError> {
         if matches!(
             word,
             "if" | "else" | "for" | "while" | "do" | "loop" | "switch" | "case"
@@ -272,7 +272,7 @@ impl Shape {
         self.long(source, at)
     }
 
-    fn sign(&mut self, source: &Source, at: usize, byte: u8) -> Result<(), RoutineError> {
+    fn sign(&mut self, source: &RoutineSource, at: usize, byte: u8) -> Result<(), RoutineError> {
         match byte {
             b'(' | b'[' | b'{' => {
                 self.open.push((at, byte));
@@ -302,7 +302,7 @@ impl Shape {
         self.long(source, at)
     }
 
-    fn long(&self, source: &Source, at: usize) -> Result<(), RoutineError> {
+    fn long(&self, source: &RoutineSource, at: usize) -> Result<(), RoutineError> {
         if self.signs > 2 * LONGEST_STATEMENT {
             return Err(source.error(
                 at,

@@ -2,7 +2,7 @@
 
 /// A line of the text.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub(crate) struct Line {
+pub(crate) struct SourceLine {
     /// What is code, without space around it.
     pub code: String,
     /// What the comment on it says.
@@ -10,30 +10,30 @@ pub(crate) struct Line {
 }
 
 /// The text with spaces where comments were, byte for byte as long, and its lines.
-pub(super) fn split(text: &str, comments_nest: bool) -> (String, Vec<Line>) {
+pub(super) fn split(text: &str, comments_nest: bool) -> (String, Vec<SourceLine>) {
     let mut code = String::with_capacity(text.len());
     let mut comments: Vec<String> = vec![String::new()];
-    let mut state = State::Code;
+    let mut state = ScanState::Code;
     let mut rest = text;
     while let Some(c) = rest.chars().next() {
         let two = rest.get(..2).unwrap_or("");
         let (next, taken) = match (state, two) {
-            (State::Code, "//") => (State::ToEnd, 2),
-            (State::Code, "/*") => (State::Within(1), 2),
-            (State::Within(depth), "/*") if comments_nest => (State::Within(depth + 1), 2),
-            (State::Within(1), "*/") => (State::Code, 2),
-            (State::Within(depth), "*/") => (State::Within(depth - 1), 2),
-            (State::ToEnd, _) if c == '\n' => (State::Code, 1),
+            (ScanState::Code, "//") => (ScanState::ToEnd, 2),
+            (ScanState::Code, "/*") => (ScanState::Within(1), 2),
+            (ScanState::Within(depth), "/*") if comments_nest => (ScanState::Within(depth + 1), 2),
+            (ScanState::Within(1), "*/") => (ScanState::Code, 2),
+            (ScanState::Within(depth), "*/") => (ScanState::Within(depth - 1), 2),
+            (ScanState::ToEnd, _) if c == '\n' => (ScanState::Code, 1),
             (state, _) => (state, c.len_utf8()),
         };
         if c == '\n' {
             code.push('\n');
             comments.push(String::new());
-        } else if state == State::Code && next == State::Code {
+        } else if state == ScanState::Code && next == ScanState::Code {
             code.push_str(&rest[..taken]);
         } else {
             code.extend(std::iter::repeat_n(' ', taken));
-            if state != State::Code && next != State::Code {
+            if state != ScanState::Code && next != ScanState::Code {
                 comments
                     .last_mut()
                     .expect("one line at least")
@@ -43,17 +43,20 @@ pub(super) fn split(text: &str, comments_nest: bool) -> (String, Vec<Line>) {
         state = next;
         rest = &rest[taken..];
     }
-    let lines = code.split('\n').zip(&comments).map(|(code, comment)| Line {
-        code: code.trim().to_owned(),
-        comment: comment.trim().trim_start_matches('*').trim().to_owned(),
-    });
+    let lines = code
+        .split('\n')
+        .zip(&comments)
+        .map(|(code, comment)| SourceLine {
+            code: code.trim().to_owned(),
+            comment: comment.trim().trim_start_matches('*').trim().to_owned(),
+        });
     let lines = lines.collect();
     (code, lines)
 }
 
 /// What a character belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum State {
+enum ScanState {
     Code,
     /// A comment to the end of the line.
     ToEnd,

@@ -20,9 +20,9 @@ mod fuzz;
 
 pub use front::Language;
 pub use program::{Note, Program, Returned};
-pub(crate) use run::{Lanes, Listener, Machine, Nobody, Noted, Place as ValuePlace};
-pub use run::{Outcome, RealNote, ask, listen};
-pub use signature::{Answers, NoHit};
+pub(crate) use run::{Lanes, Listener, Nobody, Noted, Runner, Told};
+pub use run::{RealNote, RunOutcome, ask, listen};
+pub use signature::{AnswerKind, NoHit};
 pub(crate) use value::{Arithmetic, Plain, Real};
 
 use std::fmt;

@@ -1,10 +1,10 @@
 //! A compiled routine: steps over single numbers, each in a place of its own.
 
-use super::signature::{Answers, NoHit, Signature};
+use super::signature::{AnswerKind, NoHit, Signature};
 
 /// What kind of number a place holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) enum Kind {
+pub(crate) enum SlotKind {
     /// binary32.
     Single,
     /// binary64, GLSL's `double`.
@@ -17,7 +17,7 @@ pub(crate) enum Kind {
     Uint,
 }
 
-impl Kind {
+impl SlotKind {
     pub const fn is_real(self) -> bool {
         matches!(self, Self::Single | Self::Double)
     }
@@ -26,7 +26,7 @@ impl Kind {
 /// A place in the bank of its kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) struct Slot {
-    pub kind: Kind,
+    pub kind: SlotKind,
     pub at: u16,
 }
 
@@ -105,7 +105,7 @@ pub(crate) enum Op {
     },
     Compare {
         op: Comparison,
-        kind: Kind,
+        kind: SlotKind,
         to: u16,
         of: [u16; 2],
     },
@@ -123,7 +123,7 @@ pub(crate) enum Op {
     },
     /// The first where the condition is true, else the second.
     Select {
-        kind: Kind,
+        kind: SlotKind,
         to: u16,
         condition: u16,
         of: [u16; 2],
@@ -136,7 +136,7 @@ pub(crate) enum Op {
 
 /// A part of a program.
 #[derive(Debug, Clone)]
-pub(crate) enum Step {
+pub(crate) enum ProgramStep {
     Do(Op),
     /// Writes a variable, in the lanes that run.
     Put {
@@ -145,12 +145,12 @@ pub(crate) enum Step {
     },
     If {
         condition: u16,
-        accept: Vec<Step>,
-        reject: Vec<Step>,
+        accept: Vec<ProgramStep>,
+        reject: Vec<ProgramStep>,
     },
     Loop {
-        body: Vec<Step>,
-        continuing: Vec<Step>,
+        body: Vec<ProgramStep>,
+        continuing: Vec<ProgramStep>,
         break_if: Option<u16>,
         /// Operations of one turn, inner loops apart.
         cost: u32,
@@ -158,7 +158,7 @@ pub(crate) enum Step {
     Break,
     Continue,
     /// The body of a function; what leaves it goes on after it.
-    Scope(Vec<Step>),
+    Scope(Vec<ProgramStep>),
     Leave,
     /// A place where somebody who listens is told values.
     Note(usize),
@@ -193,37 +193,37 @@ pub enum Returned {
 }
 
 /// A real number that a program starts with.
-pub(crate) type Constants<T> = Vec<(u16, T)>;
+pub(crate) type ProgramConstants<T> = Vec<(u16, T)>;
 
 /// A routine, ready to run.
 #[derive(Debug, Clone)]
 pub struct Program {
-    pub(crate) steps: Vec<Step>,
+    pub(crate) steps: Vec<ProgramStep>,
     pub(crate) notes: Vec<Note>,
     /// Places in each bank: single, double, bool, whole.
     pub(crate) sizes: [usize; 4],
-    pub(crate) singles: Constants<f32>,
-    pub(crate) doubles: Constants<f64>,
-    pub(crate) bools: Constants<bool>,
-    pub(crate) wholes: Constants<i32>,
+    pub(crate) singles: ProgramConstants<f32>,
+    pub(crate) doubles: ProgramConstants<f64>,
+    pub(crate) bools: ProgramConstants<bool>,
+    pub(crate) wholes: ProgramConstants<i32>,
     /// Operations of a run, loops apart.
     pub(crate) cost: u32,
     /// Where the numbers of ray and sphere go: which of the eleven inputs, and the place.
-    pub(crate) inputs: Vec<(Input, Slot)>,
-    pub(crate) answer: Answer,
+    pub(crate) inputs: Vec<(ProgramInput, Slot)>,
+    pub(crate) answer: ProgramAnswer,
     pub(crate) signature: Signature,
     /// The text, line by line, without what follows `//`, and that.
-    pub(crate) lines: Vec<super::lines::Line>,
+    pub(crate) lines: Vec<super::lines::SourceLine>,
 }
 
 impl Program {
     /// Which numbers of the question go where.
-    pub(crate) fn inputs(&self) -> &[(Input, Slot)] {
+    pub(crate) fn inputs(&self) -> &[(ProgramInput, Slot)] {
         &self.inputs
     }
 
     /// What it answers.
-    pub fn answers(&self) -> Answers {
+    pub fn answers(&self) -> AnswerKind {
         self.signature.answers
     }
 
@@ -262,7 +262,7 @@ impl Program {
 
 /// A number of the question.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Input {
+pub(crate) enum ProgramInput {
     /// p0, by axis.
     Origin(u8),
     /// p0 − c, for a routine that has no centre.
@@ -283,7 +283,7 @@ pub(crate) enum Input {
 
 /// Where the answer is found once a run is over.
 #[derive(Debug, Clone)]
-pub(crate) struct Answer {
+pub(crate) struct ProgramAnswer {
     /// Whether there is a hit, where the routine says so itself.
     pub found: Option<Slot>,
     /// The number of roots, where the routine says so.

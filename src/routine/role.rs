@@ -2,7 +2,7 @@
 
 /// A part of the question.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(crate) enum Role {
+pub(crate) enum ParameterRole {
     /// p0.
     Origin,
     /// p0 − c, where no centre is asked for.
@@ -29,22 +29,22 @@ pub(crate) enum Role {
     Other,
 }
 
-const NAMES: [(Role, &str); 12] = [
-    (Role::Origin, "origin"),
-    (Role::FromCenter, "origin from the centre"),
-    (Role::Direction, "direction"),
-    (Role::Center, "center"),
-    (Role::Radius, "radius"),
-    (Role::RadiusSquared, "radius squared"),
-    (Role::Sphere, "sphere"),
-    (Role::Least, "least t"),
-    (Role::Most, "greatest t"),
-    (Role::Near, "near"),
-    (Role::Far, "far"),
-    (Role::Other, "other"),
+const NAMES: [(ParameterRole, &str); 12] = [
+    (ParameterRole::Origin, "origin"),
+    (ParameterRole::FromCenter, "origin from the centre"),
+    (ParameterRole::Direction, "direction"),
+    (ParameterRole::Center, "center"),
+    (ParameterRole::Radius, "radius"),
+    (ParameterRole::RadiusSquared, "radius squared"),
+    (ParameterRole::Sphere, "sphere"),
+    (ParameterRole::Least, "least t"),
+    (ParameterRole::Most, "greatest t"),
+    (ParameterRole::Near, "near"),
+    (ParameterRole::Far, "far"),
+    (ParameterRole::Other, "other"),
 ];
 
-impl Role {
+impl ParameterRole {
     /// The word for it.
     pub fn name(self) -> &'static str {
         let named = NAMES.iter().find(|(role, _)| *role == self);

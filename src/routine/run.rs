@@ -4,8 +4,10 @@
 //! in those that run. So a lane's answer depends on its own ray alone.
 
 use super::compile::MOST_OPERATIONS;
-use super::program::{Arith, Comparison, Input, Kind, Logic, Note, Op, Program, Slot, Step, Whole};
-use super::signature::{Answers, NoHit};
+use super::program::{
+    Arith, Comparison, Logic, Note, Op, Program, ProgramInput, ProgramStep, Slot, SlotKind, Whole,
+};
+use super::signature::{AnswerKind, NoHit};
 use super::value::{Arithmetic, Real};
 use crate::number::Number;
 
@@ -18,7 +20,7 @@ impl Lanes {
 
 /// A value that is told.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Place<A: Arithmetic> {
+pub(crate) enum Told<A: Arithmetic> {
     Single(A::Single),
     Double(A::Double),
     Bool(bool),
@@ -28,7 +30,7 @@ pub(crate) enum Place<A: Arithmetic> {
 /// Values that are told, with what the text says there.
 pub(crate) struct Noted<'a, A: Arithmetic> {
     pub note: &'a Note,
-    pub values: Vec<Place<A>>,
+    pub values: Vec<Told<A>>,
 }
 
 /// Who is told values, of the first lane.
@@ -47,7 +49,7 @@ impl<A: Arithmetic> Listener<A> for Nobody {
 
 /// What came out for one ray.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Outcome<T> {
+pub enum RunOutcome<T> {
     /// The routine says that there is no hit.
     Miss,
     /// It took more operations than a ray may.
@@ -61,7 +63,7 @@ pub enum Outcome<T> {
 }
 
 /// Room for the numbers of a run.
-pub(crate) struct Machine<A: Arithmetic, const N: usize> {
+pub(crate) struct Runner<A: Arithmetic, const N: usize> {
     singles: Vec<[A::Single; N]>,
     doubles: Vec<[A::Double; N]>,
     bools: Vec<[bool; N]>,
@@ -74,7 +76,7 @@ pub(crate) struct Machine<A: Arithmetic, const N: usize> {
     continued: Vec<u64>,
 }
 
-impl<A: Arithmetic, const N: usize> Machine<A, N> {
+impl<A: Arithmetic, const N: usize> Runner<A, N> {
     /// Room for that program, its constants in their places.
     pub fn new(program: &Program) -> Self {
         assert!(N <= 64, "a lane is a bit of a mask");
@@ -109,7 +111,7 @@ impl<A: Arithmetic, const N: usize> Machine<A, N> {
     pub(crate) fn give(&mut self, slot: Slot, lane: usize, value: A::Single) {
         let at = usize::from(slot.at);
         match slot.kind {
-            Kind::Double => self.doubles[at][lane] = A::widen(value),
+            SlotKind::Double => self.doubles[at][lane] = A::widen(value),
             _ => self.singles[at][lane] = value,
         }
     }
@@ -130,9 +132,9 @@ impl<A: Arithmetic, const N: usize> Machine<A, N> {
     }
 
     /// What came out for a lane.
-    pub(crate) fn outcome(&self, program: &Program, lane: usize) -> Outcome<A::Double> {
+    pub(crate) fn outcome(&self, program: &Program, lane: usize) -> RunOutcome<A::Double> {
         if self.too_long >> lane & 1 == 1 {
-            return Outcome::TooLong;
+            return RunOutcome::TooLong;
         }
         let answer = &program.answer;
         let root = |i: usize| answer.roots.get(i).map(|slot| self.real(*slot, lane));
@@ -146,7 +148,7 @@ impl<A: Arithmetic, const N: usize> Machine<A, N> {
         let negative = || {
             let below = |t: Option<A::Double>| t.is_some_and(|t| t < A::Double::of(0.0));
             match program.answers() {
-                Answers::Roots => below(root(0)) && below(root(1)),
+                AnswerKind::Roots => below(root(0)) && below(root(1)),
                 _ => below(root(0)),
             }
         };
@@ -157,22 +159,22 @@ impl<A: Arithmetic, const N: usize> Machine<A, N> {
             NoHit::Nothing => false,
         };
         if misses {
-            return Outcome::Miss;
+            return RunOutcome::Miss;
         }
         match (root(0), root(1)) {
             (Some(near), Some(far)) if count == Some(1) => {
-                Outcome::Two(near, if count == Some(1) { near } else { far }, count)
+                RunOutcome::Two(near, if count == Some(1) { near } else { far }, count)
             }
-            (Some(near), Some(far)) => Outcome::Two(near, far, count),
-            (Some(t), None) => Outcome::One(t),
-            _ => Outcome::Hit,
+            (Some(near), Some(far)) => RunOutcome::Two(near, far, count),
+            (Some(t), None) => RunOutcome::One(t),
+            _ => RunOutcome::Hit,
         }
     }
 
     fn real(&self, slot: Slot, lane: usize) -> A::Double {
         let at = usize::from(slot.at);
         match slot.kind {
-            Kind::Double => self.doubles[at][lane],
+            SlotKind::Double => self.doubles[at][lane],
             _ => A::widen(self.singles[at][lane]),
         }
     }
@@ -181,7 +183,7 @@ impl<A: Arithmetic, const N: usize> Machine<A, N> {
     fn block(
         &mut self,
         program: &Program,
-        steps: &[Step],
+        steps: &[ProgramStep],
         mut lanes: u64,
         listener: &mut impl Listener<A>,
     ) -> u64 {
@@ -190,9 +192,9 @@ impl<A: Arithmetic, const N: usize> Machine<A, N> {
                 break;
             }
             match step {
-                Step::Do(op) => self.operate(*op),
-                Step::Put { to, from } => self.put(*to, *from, lanes),
-                Step::If {
+                ProgramStep::Do(op) => self.operate(*op),
+                ProgramStep::Put { to, from } => self.put(*to, *from, lanes),
+                ProgramStep::If {
                     condition,
                     accept,
                     reject,
@@ -202,7 +204,7 @@ impl<A: Arithmetic, const N: usize> Machine<A, N> {
                     let rejected = self.block(program, reject, lanes & !yes, listener);
                     lanes = accepted | rejected;
                 }
-                Step::Loop {
+                ProgramStep::Loop {
                     body,
                     continuing,
                     break_if,
@@ -215,26 +217,26 @@ impl<A: Arithmetic, const N: usize> Machine<A, N> {
                         listener,
                     );
                 }
-                Step::Break => {
+                ProgramStep::Break => {
                     *self.broken.last_mut().expect("inside a loop") |= lanes;
                     lanes = 0;
                 }
-                Step::Continue => {
+                ProgramStep::Continue => {
                     *self.continued.last_mut().expect("inside a loop") |= lanes;
                     lanes = 0;
                 }
-                Step::Scope(body) => {
+                ProgramStep::Scope(body) => {
                     self.left.push(0);
                     let through = self.block(program, body, lanes, listener);
                     lanes = through | self.left.pop().unwrap_or(0);
                 }
-                Step::Leave => {
+                ProgramStep::Leave => {
                     if let Some(left) = self.left.last_mut() {
                         *left |= lanes;
                     }
                     lanes = 0;
                 }
-                Step::Note(index) => self.tell(program, *index, lanes, listener),
+                ProgramStep::Note(index) => self.tell(program, *index, lanes, listener),
             }
         }
         lanes
@@ -243,7 +245,7 @@ impl<A: Arithmetic, const N: usize> Machine<A, N> {
     fn turns(
         &mut self,
         program: &Program,
-        (body, continuing, break_if, cost): (&[Step], &[Step], Option<u16>, u32),
+        (body, continuing, break_if, cost): (&[ProgramStep], &[ProgramStep], Option<u16>, u32),
         mut lanes: u64,
         listener: &mut impl Listener<A>,
     ) -> u64 {
@@ -289,11 +291,11 @@ impl<A: Arithmetic, const N: usize> Machine<A, N> {
         let value = |slot: &Slot| {
             let at = usize::from(slot.at);
             match slot.kind {
-                Kind::Single => Place::Single(self.singles[at][0]),
-                Kind::Double => Place::Double(self.doubles[at][0]),
-                Kind::Bool => Place::Bool(self.bools[at][0]),
-                Kind::Int => Place::Whole(self.wholes[at][0].into()),
-                Kind::Uint => Place::Whole((self.wholes[at][0] as u32).into()),
+                SlotKind::Single => Told::Single(self.singles[at][0]),
+                SlotKind::Double => Told::Double(self.doubles[at][0]),
+                SlotKind::Bool => Told::Bool(self.bools[at][0]),
+                SlotKind::Int => Told::Whole(self.wholes[at][0].into()),
+                SlotKind::Uint => Told::Whole((self.wholes[at][0] as u32).into()),
             }
         };
         let values = note.slots.iter().map(value).collect();
@@ -303,10 +305,10 @@ impl<A: Arithmetic, const N: usize> Machine<A, N> {
     fn put(&mut self, to: Slot, from: Slot, lanes: u64) {
         let [to_at, from_at] = [to.at, from.at].map(usize::from);
         match to.kind {
-            Kind::Single => put(&mut self.singles, to_at, from_at, lanes),
-            Kind::Double => put(&mut self.doubles, to_at, from_at, lanes),
-            Kind::Bool => put(&mut self.bools, to_at, from_at, lanes),
-            Kind::Int | Kind::Uint => put(&mut self.wholes, to_at, from_at, lanes),
+            SlotKind::Single => put(&mut self.singles, to_at, from_at, lanes),
+            SlotKind::Double => put(&mut self.doubles, to_at, from_at, lanes),
+            SlotKind::Bool => put(&mut self.bools, to_at, from_at, lanes),
+            SlotKind::Int | SlotKind::Uint => put(&mut self.wholes, to_at, from_at, lanes),
         }
     }
 
@@ -321,10 +323,10 @@ impl<A: Arithmetic, const N: usize> Machine<A, N> {
             Op::Arith { op, to, of, .. } => arith(&mut self.doubles, op, to, of),
             Op::Compare { op, kind, to, of } => {
                 self.bools[usize::from(to)] = match kind {
-                    Kind::Double => compare(&self.doubles, op, of),
-                    Kind::Single | Kind::Bool => compare(&self.singles, op, of),
-                    Kind::Int => compare(&self.wholes, op, of),
-                    Kind::Uint => {
+                    SlotKind::Double => compare(&self.doubles, op, of),
+                    SlotKind::Single | SlotKind::Bool => compare(&self.singles, op, of),
+                    SlotKind::Int => compare(&self.wholes, op, of),
+                    SlotKind::Uint => {
                         let [x, y] = of.map(|at| self.wholes[usize::from(at)].map(|x| x as u32));
                         compare(&[x, y], op, [0, 1])
                     }
@@ -349,10 +351,10 @@ impl<A: Arithmetic, const N: usize> Machine<A, N> {
             } => {
                 let condition = self.bools[usize::from(condition)];
                 match kind {
-                    Kind::Single => select(&mut self.singles, condition, to, of),
-                    Kind::Double => select(&mut self.doubles, condition, to, of),
-                    Kind::Bool => select(&mut self.bools, condition, to, of),
-                    Kind::Int | Kind::Uint => select(&mut self.wholes, condition, to, of),
+                    SlotKind::Single => select(&mut self.singles, condition, to, of),
+                    SlotKind::Double => select(&mut self.doubles, condition, to, of),
+                    SlotKind::Bool => select(&mut self.bools, condition, to, of),
+                    SlotKind::Int | SlotKind::Uint => select(&mut self.wholes, condition, to, of),
                 }
             }
             Op::Convert { from, to } => self.convert(from, to),
@@ -377,30 +379,34 @@ impl<A: Arithmetic, const N: usize> Machine<A, N> {
     fn convert(&mut self, from: Slot, to: Slot) {
         let [f, t] = [from.at, to.at].map(usize::from);
         match (from.kind, to.kind) {
-            (Kind::Single, Kind::Double) => self.doubles[t] = self.singles[f].map(A::widen),
-            (Kind::Double, Kind::Single) => self.singles[t] = self.doubles[f].map(A::narrow),
-            (_, Kind::Single) => self.singles[t] = self.as_f64(from).map(A::Single::of),
-            (_, Kind::Double) => self.doubles[t] = self.as_f64(from).map(A::Double::of),
-            (_, Kind::Bool) => self.bools[t] = self.as_f64(from).map(|x| x != 0.0),
-            (Kind::Int | Kind::Uint, Kind::Int | Kind::Uint) => self.wholes[t] = self.wholes[f],
-            (_, Kind::Int) => self.wholes[t] = self.as_f64(from).map(|x| x as i32),
-            (_, Kind::Uint) => self.wholes[t] = self.as_f64(from).map(|x| x as u32 as i32),
+            (SlotKind::Single, SlotKind::Double) => self.doubles[t] = self.singles[f].map(A::widen),
+            (SlotKind::Double, SlotKind::Single) => {
+                self.singles[t] = self.doubles[f].map(A::narrow);
+            }
+            (_, SlotKind::Single) => self.singles[t] = self.as_f64(from).map(A::Single::of),
+            (_, SlotKind::Double) => self.doubles[t] = self.as_f64(from).map(A::Double::of),
+            (_, SlotKind::Bool) => self.bools[t] = self.as_f64(from).map(|x| x != 0.0),
+            (SlotKind::Int | SlotKind::Uint, SlotKind::Int | SlotKind::Uint) => {
+                self.wholes[t] = self.wholes[f]
+            }
+            (_, SlotKind::Int) => self.wholes[t] = self.as_f64(from).map(|x| x as i32),
+            (_, SlotKind::Uint) => self.wholes[t] = self.as_f64(from).map(|x| x as u32 as i32),
         }
     }
 
     fn as_f64(&self, from: Slot) -> [f64; N] {
         let at = usize::from(from.at);
         match from.kind {
-            Kind::Single => self.singles[at].map(Real::to_f64),
-            Kind::Double => self.doubles[at].map(Real::to_f64),
-            Kind::Bool => self.bools[at].map(|x| f64::from(u8::from(x))),
-            Kind::Int => self.wholes[at].map(f64::from),
-            Kind::Uint => self.wholes[at].map(|x| f64::from(x as u32)),
+            SlotKind::Single => self.singles[at].map(Real::to_f64),
+            SlotKind::Double => self.doubles[at].map(Real::to_f64),
+            SlotKind::Bool => self.bools[at].map(|x| f64::from(u8::from(x))),
+            SlotKind::Int => self.wholes[at].map(f64::from),
+            SlotKind::Uint => self.wholes[at].map(|x| f64::from(x as u32)),
         }
     }
 }
 
-impl Input {
+impl ProgramInput {
     /// The number of that ray and sphere, p0, d, c and r.
     pub(crate) fn of<T: crate::number::Number>(self, p0: [T; 3], d: [T; 3], c: [T; 3], r: T) -> T {
         match self {
@@ -526,8 +532,8 @@ fn whole(op: Whole, unsigned: bool, x: i32, y: i32) -> i32 {
 }
 
 /// What a routine makes of one ray and sphere, in plain numbers.
-pub fn ask(program: &Program, p0: [f32; 3], d: [f32; 3], c: [f32; 3], r: f32) -> Outcome<f64> {
-    let mut machine = Machine::<super::value::Plain, 1>::new(program);
+pub fn ask(program: &Program, p0: [f32; 3], d: [f32; 3], c: [f32; 3], r: f32) -> RunOutcome<f64> {
+    let mut machine = Runner::<super::value::Plain, 1>::new(program);
     for (input, slot) in &program.inputs {
         machine.give(*slot, 0, input.of(p0, d, c, r));
     }
@@ -547,7 +553,7 @@ pub struct RealNote {
 /// What the lines of a routine give for one ray and sphere, in plain numbers.
 pub fn listen(program: &Program, [p0, d, c]: [[f32; 3]; 3], r: f32) -> Vec<RealNote> {
     let mut notes = Notebook(Vec::new());
-    let mut machine = Machine::<super::value::Plain, 1>::new(program);
+    let mut machine = Runner::<super::value::Plain, 1>::new(program);
     for (input, slot) in &program.inputs {
         machine.give(*slot, 0, input.of(p0, d, c, r));
     }
@@ -565,10 +571,10 @@ impl Listener<super::value::Plain> for Notebook {
         if self.0.len() == 200 {
             return;
         }
-        let real = |value: &Place<super::value::Plain>| match value {
-            Place::Single(x) => Some(f64::from(*x)),
-            Place::Double(x) => Some(*x),
-            Place::Bool(_) | Place::Whole(_) => None,
+        let real = |value: &Told<super::value::Plain>| match value {
+            Told::Single(x) => Some(f64::from(*x)),
+            Told::Double(x) => Some(*x),
+            Told::Bool(_) | Told::Whole(_) => None,
         };
         self.0.push(RealNote {
             line: noted.note.line,

@@ -5,12 +5,12 @@ use naga::{
 };
 
 use super::RoutineError;
-use super::guard::Source;
-use super::role::Role;
+use super::guard::RoutineSource;
+use super::role::ParameterRole;
 
 /// What a routine answers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Answers {
+pub enum AnswerKind {
     /// Both roots.
     Roots,
     /// One t, the visible root.
@@ -19,7 +19,7 @@ pub enum Answers {
     Whether,
 }
 
-impl Answers {
+impl AnswerKind {
     /// In words.
     pub const fn words(self) -> &'static str {
         match self {
@@ -59,9 +59,9 @@ impl NoHit {
 #[derive(Debug, Clone)]
 pub(crate) struct Signature {
     pub name: String,
-    pub answers: Answers,
+    pub answers: AnswerKind,
     /// Each number or vector that goes in or out, by name.
-    pub parameters: Vec<(String, Role)>,
+    pub parameters: Vec<(String, ParameterRole)>,
 }
 
 /// A part of a parameter or a result that is a number or a vector.
@@ -69,12 +69,12 @@ pub(crate) struct Signature {
 pub(super) struct Leaf {
     /// Its own name, without that of the structure it lies in.
     pub name: String,
-    pub shape: Shape,
+    pub shape: LeafShape,
 }
 
 /// Of which shape it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Shape {
+pub(super) enum LeafShape {
     Real(u8),
     Bool,
     Int,
@@ -82,22 +82,25 @@ pub(super) enum Shape {
 
 /// A function that could be the routine.
 #[derive(Debug, Clone)]
-pub(super) struct Candidate {
+pub(super) struct RoutineCandidate {
     pub function: Handle<Function>,
     pub name: String,
     /// Roles of what goes in, part by part and parameter by parameter.
-    pub given: Vec<Vec<(Leaf, Option<Role>)>>,
+    pub given: Vec<Vec<(Leaf, Option<ParameterRole>)>>,
     /// Which of the parameters are written to.
     pub out: Vec<bool>,
     pub result: Vec<Leaf>,
-    pub answers: Answers,
+    pub answers: AnswerKind,
     span: Span,
 }
 
 /// Chooses the routine.
-pub(super) fn choose(source: &Source, module: &Module) -> Result<Candidate, RoutineError> {
+pub(super) fn choose(
+    source: &RoutineSource,
+    module: &Module,
+) -> Result<RoutineCandidate, RoutineError> {
     let named = source.said("routine");
-    let mut found: Vec<Result<Candidate, RoutineError>> = Vec::new();
+    let mut found: Vec<Result<RoutineCandidate, RoutineError>> = Vec::new();
     for (function, body) in module.functions.iter() {
         let name = body.name.as_deref().unwrap_or("");
         let asked = named.map(|(_, name)| name);
@@ -114,12 +117,12 @@ pub(super) fn choose(source: &Source, module: &Module) -> Result<Candidate, Rout
             problem: format!("there is no function {name}"),
         });
     }
-    let fitting: Vec<&Candidate> = found.iter().flatten().collect();
+    let fitting: Vec<&RoutineCandidate> = found.iter().flatten().collect();
     // A helper may look like a routine; the routine is not called by another.
-    let calls = |caller: &Candidate, called: Handle<Function>| {
+    let calls = |caller: &RoutineCandidate, called: Handle<Function>| {
         calls(&module.functions[caller.function].body, called)
     };
-    let tops: Vec<&&Candidate> = fitting
+    let tops: Vec<&&RoutineCandidate> = fitting
         .iter()
         .filter(|one| !fitting.iter().any(|other| calls(other, one.function)))
         .collect();
@@ -160,11 +163,11 @@ fn calls(block: &naga::Block, called: Handle<Function>) -> bool {
 }
 
 fn candidate(
-    source: &Source,
+    source: &RoutineSource,
     module: &Module,
     handle: Handle<Function>,
     span: Span,
-) -> Result<Candidate, RoutineError> {
+) -> Result<RoutineCandidate, RoutineError> {
     let function = &module.functions[handle];
     let name = function.name.clone().unwrap_or_default();
     let at = function_place(source, &name, span);
@@ -206,7 +209,7 @@ fn candidate(
             "{name} gives no t and no bool; a routine gives float, vec2, bool, or a struct of them, or writes out parameters"
         ))
     })?;
-    Ok(Candidate {
+    Ok(RoutineCandidate {
         function: handle,
         name,
         given,
@@ -218,29 +221,29 @@ fn candidate(
 }
 
 /// Where the function is written: the reader gives whole functions no place.
-fn function_place(source: &Source, name: &str, span: Span) -> usize {
+fn function_place(source: &RoutineSource, name: &str, span: Span) -> usize {
     if let Some(range) = span.to_range().filter(|_| span.is_defined()) {
         return range.start;
     }
     source.code.find(&format!("{name}(")).unwrap_or(0)
 }
 
-fn answers(result: &[Leaf], outs: &[&Leaf]) -> Option<Answers> {
+fn answers(result: &[Leaf], outs: &[&Leaf]) -> Option<AnswerKind> {
     let reals = |leaf: &Leaf| match leaf.shape {
-        Shape::Real(1) => 1,
-        Shape::Real(2) => 2,
+        LeafShape::Real(1) => 1,
+        LeafShape::Real(2) => 2,
         _ => 0,
     };
     let count: u32 =
         result.iter().map(reals).sum::<u32>() + outs.iter().map(|leaf| reals(leaf)).sum::<u32>();
     let says = result
         .iter()
-        .any(|leaf| matches!(leaf.shape, Shape::Bool | Shape::Int));
+        .any(|leaf| matches!(leaf.shape, LeafShape::Bool | LeafShape::Int));
     match count {
-        0 if result.iter().any(|leaf| leaf.shape == Shape::Bool) => Some(Answers::Whether),
+        0 if result.iter().any(|leaf| leaf.shape == LeafShape::Bool) => Some(AnswerKind::Whether),
         0 => None,
-        1 if !result.is_empty() => Some(Answers::Visible),
-        _ if !result.is_empty() || says => Some(Answers::Roots),
+        1 if !result.is_empty() => Some(AnswerKind::Visible),
+        _ if !result.is_empty() || says => Some(AnswerKind::Roots),
         _ => None,
     }
 }
@@ -255,10 +258,10 @@ fn flatten(
 ) -> Result<(), String> {
     let real = |scalar: Scalar| scalar.kind == ScalarKind::Float && matches!(scalar.width, 4 | 8);
     let shape = match &module.types[ty].inner {
-        TypeInner::Scalar(scalar) if real(*scalar) => Shape::Real(1),
-        TypeInner::Scalar(scalar) if scalar.kind == ScalarKind::Bool => Shape::Bool,
-        TypeInner::Scalar(_) => Shape::Int,
-        TypeInner::Vector { size, scalar } if real(*scalar) => Shape::Real(match size {
+        TypeInner::Scalar(scalar) if real(*scalar) => LeafShape::Real(1),
+        TypeInner::Scalar(scalar) if scalar.kind == ScalarKind::Bool => LeafShape::Bool,
+        TypeInner::Scalar(_) => LeafShape::Int,
+        TypeInner::Vector { size, scalar } if real(*scalar) => LeafShape::Real(match size {
             VectorSize::Bi => 2,
             VectorSize::Tri => 3,
             VectorSize::Quad => 4,
@@ -288,11 +291,11 @@ fn flatten(
     Ok(())
 }
 
-type Roles = Vec<Vec<(Leaf, Option<Role>)>>;
+type Roles = Vec<Vec<(Leaf, Option<ParameterRole>)>>;
 
 /// What each part is for.
 fn roles(
-    source: &Source,
+    source: &RoutineSource,
     function: &str,
     at: usize,
     leaves: &[Vec<Leaf>],
@@ -320,7 +323,7 @@ fn roles(
         .collect())
 }
 
-fn said_roles(line: usize, said: &str, ins: &[&Leaf]) -> Result<Vec<Role>, RoutineError> {
+fn said_roles(line: usize, said: &str, ins: &[&Leaf]) -> Result<Vec<ParameterRole>, RoutineError> {
     let refuse = |problem: String| RoutineError {
         line,
         column: 1,
@@ -328,7 +331,7 @@ fn said_roles(line: usize, said: &str, ins: &[&Leaf]) -> Result<Vec<Role>, Routi
     };
     let mut roles = Vec::new();
     for word in said.split(',') {
-        let role = Role::said(word).ok_or_else(|| {
+        let role = ParameterRole::said(word).ok_or_else(|| {
             refuse(format!(
                 "{} is no role; there are origin, direction, center, radius, radius squared, sphere, least t, greatest t",
                 word.trim()
@@ -345,11 +348,14 @@ fn said_roles(line: usize, said: &str, ins: &[&Leaf]) -> Result<Vec<Role>, Routi
     }
     for (role, leaf) in roles.iter().zip(ins) {
         let wanted = match role {
-            Role::Origin | Role::FromCenter | Role::Direction | Role::Center => 3,
-            Role::Sphere => 4,
+            ParameterRole::Origin
+            | ParameterRole::FromCenter
+            | ParameterRole::Direction
+            | ParameterRole::Center => 3,
+            ParameterRole::Sphere => 4,
             _ => 1,
         };
-        if leaf.shape != Shape::Real(wanted) {
+        if leaf.shape != LeafShape::Real(wanted) {
             return Err(refuse(format!(
                 "{} can't be the {}",
                 leaf.name,
@@ -361,19 +367,27 @@ fn said_roles(line: usize, said: &str, ins: &[&Leaf]) -> Result<Vec<Role>, Routi
 }
 
 /// By the order in which people write them, which the names must not contradict.
-fn usual_roles(ins: &[&Leaf]) -> Result<Vec<Role>, String> {
+fn usual_roles(ins: &[&Leaf]) -> Result<Vec<ParameterRole>, String> {
     let vectors: Vec<&&Leaf> = ins
         .iter()
-        .filter(|leaf| leaf.shape == Shape::Real(3))
+        .filter(|leaf| leaf.shape == LeafShape::Real(3))
         .collect();
-    let has_sphere = ins.iter().any(|leaf| leaf.shape == Shape::Real(4));
-    let orders: &[&[Role]] = match (vectors.len(), has_sphere) {
+    let has_sphere = ins.iter().any(|leaf| leaf.shape == LeafShape::Real(4));
+    let orders: &[&[ParameterRole]] = match (vectors.len(), has_sphere) {
         (3, false) => &[
-            &[Role::Origin, Role::Direction, Role::Center],
-            &[Role::Center, Role::Origin, Role::Direction],
+            &[
+                ParameterRole::Origin,
+                ParameterRole::Direction,
+                ParameterRole::Center,
+            ],
+            &[
+                ParameterRole::Center,
+                ParameterRole::Origin,
+                ParameterRole::Direction,
+            ],
         ],
-        (2, true) => &[&[Role::Origin, Role::Direction]],
-        (2, false) => &[&[Role::FromCenter, Role::Direction]],
+        (2, true) => &[&[ParameterRole::Origin, ParameterRole::Direction]],
+        (2, false) => &[&[ParameterRole::FromCenter, ParameterRole::Direction]],
         _ => {
             return Err(
                 "a ray and a sphere are vec3 origin, vec3 direction, vec3 center, float radius, or vec4 sphere"
@@ -381,14 +395,15 @@ fn usual_roles(ins: &[&Leaf]) -> Result<Vec<Role>, String> {
             );
         }
     };
-    let agrees = |usual: Role, role: Role| {
+    let agrees = |usual: ParameterRole, role: ParameterRole| {
         usual == role
-            || (role == Role::FromCenter && usual == Role::Origin)
-            || (role == Role::FromCenter && usual == Role::Center)
+            || (role == ParameterRole::FromCenter && usual == ParameterRole::Origin)
+            || (role == ParameterRole::FromCenter && usual == ParameterRole::Center)
     };
-    let fits = |order: &&&[Role]| {
+    let fits = |order: &&&[ParameterRole]| {
         order.iter().zip(&vectors).all(|(&role, leaf)| {
-            Role::usual(&leaf.name).is_none_or(|usual| !is_vector(usual) || agrees(usual, role))
+            ParameterRole::usual(&leaf.name)
+                .is_none_or(|usual| !is_vector(usual) || agrees(usual, role))
         })
     };
     let Some(order) = orders.iter().find(fits) else {
@@ -396,7 +411,7 @@ fn usual_roles(ins: &[&Leaf]) -> Result<Vec<Role>, String> {
             .iter()
             .zip(&vectors)
             .find_map(|(role, leaf)| {
-                let usual = Role::usual(&leaf.name)?;
+                let usual = ParameterRole::usual(&leaf.name)?;
                 (is_vector(usual) && !agrees(usual, *role)).then_some((leaf, usual))
             })
             .expect("some name disagrees");
@@ -411,25 +426,25 @@ fn usual_roles(ins: &[&Leaf]) -> Result<Vec<Role>, String> {
     let mut least = true;
     let mut roles = Vec::new();
     for leaf in ins {
-        let usual = Role::usual(&leaf.name);
+        let usual = ParameterRole::usual(&leaf.name);
         roles.push(match leaf.shape {
-            Shape::Real(3) => *next.next().expect("as many as there are vectors"),
-            Shape::Real(4) => Role::Sphere,
-            Shape::Real(1) => match usual {
-                Some(role @ (Role::Least | Role::Most)) => role,
+            LeafShape::Real(3) => *next.next().expect("as many as there are vectors"),
+            LeafShape::Real(4) => ParameterRole::Sphere,
+            LeafShape::Real(1) => match usual {
+                Some(role @ (ParameterRole::Least | ParameterRole::Most)) => role,
                 _ if radius => {
                     radius = false;
-                    if usual == Some(Role::RadiusSquared) {
-                        Role::RadiusSquared
+                    if usual == Some(ParameterRole::RadiusSquared) {
+                        ParameterRole::RadiusSquared
                     } else {
-                        Role::Radius
+                        ParameterRole::Radius
                     }
                 }
                 _ if least => {
                     least = false;
-                    Role::Least
+                    ParameterRole::Least
                 }
-                _ => Role::Most,
+                _ => ParameterRole::Most,
             },
             _ => return Err(format!("{} is neither a float nor a vector", leaf.name)),
         });
@@ -437,18 +452,21 @@ fn usual_roles(ins: &[&Leaf]) -> Result<Vec<Role>, String> {
     complete(roles)
 }
 
-const fn is_vector(role: Role) -> bool {
-    matches!(role, Role::Origin | Role::Direction | Role::Center)
+const fn is_vector(role: ParameterRole) -> bool {
+    matches!(
+        role,
+        ParameterRole::Origin | ParameterRole::Direction | ParameterRole::Center
+    )
 }
 
 /// The roles, if they make a ray and a sphere.
-fn complete(roles: Vec<Role>) -> Result<Vec<Role>, String> {
-    let has = |role: Role| roles.iter().filter(|r| **r == role).count();
-    let sphere = has(Role::Sphere);
-    let radius = has(Role::Radius) + has(Role::RadiusSquared);
-    let center = has(Role::Center) + has(Role::FromCenter) + sphere;
-    let origin = has(Role::Origin) + has(Role::FromCenter);
-    if (origin, has(Role::Direction), center) == (1, 1, 1) && radius + sphere == 1 {
+fn complete(roles: Vec<ParameterRole>) -> Result<Vec<ParameterRole>, String> {
+    let has = |role: ParameterRole| roles.iter().filter(|r| **r == role).count();
+    let sphere = has(ParameterRole::Sphere);
+    let radius = has(ParameterRole::Radius) + has(ParameterRole::RadiusSquared);
+    let center = has(ParameterRole::Center) + has(ParameterRole::FromCenter) + sphere;
+    let origin = has(ParameterRole::Origin) + has(ParameterRole::FromCenter);
+    if (origin, has(ParameterRole::Direction), center) == (1, 1, 1) && radius + sphere == 1 {
         Ok(roles)
     } else {
         Err(

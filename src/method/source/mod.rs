@@ -36,7 +36,7 @@ impl SourceLanguage {
 }
 
 /// A part of a method: a variable, with what is said of it, or where it returns.
-enum Part {
+enum MethodPart {
     /// A number: name, expression, comment.
     Number(&'static str, &'static str, &'static str),
     /// A vector, likewise.
@@ -47,25 +47,25 @@ enum Part {
     Roots(&'static str, &'static str),
 }
 
-use Part::{Miss, Number, Roots, Vector};
+use MethodPart::{Miss, Number, Roots, Vector};
 
-const O: Part = Vector(
+const O: MethodPart = Vector(
     "o",
     "sub(origin, center)",
     "from the centre to where the ray starts",
 );
-const A: Part = Number(
+const A: MethodPart = Number(
     "a",
     "dot(direction, direction)",
     "what multiplies t²: the length of d, squared",
 );
-const HALF_B: Part = Number("b", "dot(direction, o)", "half of what multiplies t");
-const C: Part = Number(
+const HALF_B: MethodPart = Number("b", "dot(direction, o)", "half of what multiplies t");
+const C: MethodPart = Number(
     "c",
     "dot(o, o) - radius * radius",
     "below 0 if the ray starts inside",
 );
-const Q_FORM: [Part; 7] = [
+const Q_FORM: [MethodPart; 7] = [
     Miss("reduced < 0.0"),
     Number("s", "root(reduced)", ""),
     Number(
@@ -82,13 +82,13 @@ const Q_FORM: [Part; 7] = [
     Number("near", "choose(b < 0.0, other, one)", ""),
     Number("far", "choose(b < 0.0, one, other)", ""),
 ];
-const IN_ORDER: Part = Roots(
+const IN_ORDER: MethodPart = Roots(
     "choose(near > far, far, near)",
     "choose(near > far, near, far)",
 );
 
 #[expect(clippy::too_many_lines, reason = "a list of formulas")]
-fn parts(method: Method) -> Vec<Part> {
+fn parts(method: Method) -> Vec<MethodPart> {
     let textbook_roots = || {
         [
             Miss("discriminant < 0.0"),
@@ -96,7 +96,7 @@ fn parts(method: Method) -> Vec<Part> {
             Roots("(-b - s) / (2.0 * a)", "(-b + s) / (2.0 * a)"),
         ]
     };
-    let reduced = |own: Vec<Part>| {
+    let reduced = |own: Vec<MethodPart>| {
         let mut parts = vec![O, A, HALF_B, C];
         parts.extend(own);
         parts.extend(Q_FORM);
@@ -272,7 +272,7 @@ impl Writer {
             .replace("SUFFIX", if self.wide { "" } else { "f" })
     }
 
-    fn part(&self, part: &Part) -> String {
+    fn part(&self, part: &MethodPart) -> String {
         use SourceLanguage::{C, Glsl, Rust, Wgsl};
         let number = self.number();
         match part {

@@ -13,7 +13,7 @@ use crate::method::number::Input;
 use crate::method::tape::{Float, Tape, Traced};
 use crate::method::{Precision, RoutineId, Truth};
 use crate::number::Number as _;
-use crate::routine::{Arithmetic, Listener, Machine, Noted, Program, Real, Returned, ValuePlace};
+use crate::routine::{Arithmetic, Listener, Noted, Program, Real, Returned, Runner, Told};
 use crate::text::Glyphs;
 
 /// How many steps are shown of a routine that loops.
@@ -90,7 +90,7 @@ pub(in crate::method) fn steps(
         texts: HashMap::new(),
     };
     scribe.name_parameters(&input);
-    let mut machine = Machine::<Recorded<'_>, 1>::new(program);
+    let mut machine = Runner::<Recorded<'_>, 1>::new(program);
     for &(what, slot) in program.inputs() {
         let value = what.of(input.p0, input.d, input.center, input.r);
         machine.give(slot, 0, value);
@@ -212,16 +212,16 @@ impl<'t> Listener<Recorded<'t>> for Scribe<'_, 't> {
         let mut other = None;
         for value in &noted.values {
             match *value {
-                ValuePlace::Single(x) => {
+                Told::Single(x) => {
                     losses.extend(self.steps.losses(&[x]));
                     parts.push(measured(x));
                 }
-                ValuePlace::Double(x) => {
+                Told::Double(x) => {
                     losses.extend(self.steps.losses(&[x]));
                     parts.push(measured(x));
                 }
-                ValuePlace::Bool(x) => other = Some(Quantity::Whether(x)),
-                ValuePlace::Whole(x) => other = Some(Quantity::Count(x)),
+                Told::Bool(x) => other = Some(Quantity::Whether(x)),
+                Told::Whole(x) => other = Some(Quantity::Count(x)),
             }
         }
         let texts: Vec<String> = parts
@@ -240,8 +240,8 @@ impl<'t> Listener<Recorded<'t>> for Scribe<'_, 't> {
                     format!("{name}.{axis}")
                 };
                 match *value {
-                    ValuePlace::Single(x) => self.steps.rename(&named, x),
-                    ValuePlace::Double(x) => self.steps.rename(&named, x),
+                    Told::Single(x) => self.steps.rename(&named, x),
+                    Told::Double(x) => self.steps.rename(&named, x),
                     _ => {}
                 }
             }

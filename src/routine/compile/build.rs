@@ -5,10 +5,11 @@ use std::collections::HashMap;
 use naga::{Handle, Module, Scalar, ScalarKind, Type, TypeInner};
 
 use super::super::RoutineError;
-use super::super::front::Parsed;
-use super::super::guard::Source;
+use super::super::front::ParsedModule;
+use super::super::guard::RoutineSource;
 use super::super::program::{
-    Answer, Arith, Comparison, Input, Kind, Logic, Note, Op, Program, Slot, Step,
+    Arith, Comparison, Logic, Note, Op, Program, ProgramAnswer, ProgramInput, ProgramStep, Slot,
+    SlotKind,
 };
 use super::super::signature::Signature;
 use super::{MOST_OPERATIONS, prune};
@@ -31,7 +32,7 @@ pub(super) enum Constancy {
 
 /// Numbers in order, as the type of an expression has them.
 #[derive(Debug, Clone)]
-pub(super) struct Value {
+pub(super) struct CompiledValue {
     pub slots: Vec<Slot>,
     pub constancy: Constancy,
     /// The variable whose places these are, if it may be written again.
@@ -48,14 +49,14 @@ pub(super) struct Storage {
 
 /// The program so far.
 pub(super) struct Builder<'a> {
-    pub source: &'a Source,
-    pub parsed: &'a Parsed,
+    pub source: &'a RoutineSource,
+    pub parsed: &'a ParsedModule,
     pub contract: bool,
     /// The blocks that are open, the innermost last.
-    blocks: Vec<Vec<Step>>,
+    blocks: Vec<Vec<ProgramStep>>,
     pub notes: Vec<Note>,
     counts: [u16; 4],
-    constants: HashMap<(Kind, u64), u16>,
+    constants: HashMap<(SlotKind, u64), u16>,
     /// Variables, of all functions.
     pub storage: Vec<Storage>,
     pub globals: HashMap<Handle<naga::GlobalVariable>, usize>,
@@ -67,7 +68,7 @@ pub(super) struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    pub fn new(source: &'a Source, parsed: &'a Parsed, contract: bool) -> Self {
+    pub fn new(source: &'a RoutineSource, parsed: &'a ParsedModule, contract: bool) -> Self {
         Self {
             source,
             parsed,
@@ -93,7 +94,7 @@ impl<'a> Builder<'a> {
         Err(self.source.error(self.at, problem))
     }
 
-    pub fn fresh(&mut self, kind: Kind) -> Result<u16, RoutineError> {
+    pub fn fresh(&mut self, kind: SlotKind) -> Result<u16, RoutineError> {
         let count = &mut self.counts[bank(kind)];
         if *count >= MOST_SLOTS {
             return self.refuse("the routine is too long once its helper functions are put in");
@@ -102,7 +103,7 @@ impl<'a> Builder<'a> {
         Ok(*count - 1)
     }
 
-    pub fn fresh_slot(&mut self, kind: Kind) -> Result<Slot, RoutineError> {
+    pub fn fresh_slot(&mut self, kind: SlotKind) -> Result<Slot, RoutineError> {
         Ok(Slot::new(kind, self.fresh(kind)?))
     }
 
@@ -116,7 +117,7 @@ impl<'a> Builder<'a> {
     }
 
     /// The numbers that a type is made of, in order.
-    pub fn kinds(&self, inner: &TypeInner) -> Result<Vec<Kind>, RoutineError> {
+    pub fn kinds(&self, inner: &TypeInner) -> Result<Vec<SlotKind>, RoutineError> {
         let types = &self.module().types;
         Ok(match inner {
             TypeInner::Scalar(scalar) => vec![self.kind(*scalar)?],
@@ -147,19 +148,19 @@ impl<'a> Builder<'a> {
         })
     }
 
-    pub fn kind(&self, scalar: Scalar) -> Result<Kind, RoutineError> {
+    pub fn kind(&self, scalar: Scalar) -> Result<SlotKind, RoutineError> {
         Ok(match (scalar.kind, scalar.width) {
-            (ScalarKind::Float, 4) | (ScalarKind::AbstractFloat, _) => Kind::Single,
-            (ScalarKind::Float, 8) => Kind::Double,
-            (ScalarKind::Bool, _) => Kind::Bool,
-            (ScalarKind::Sint, 4) | (ScalarKind::AbstractInt, _) => Kind::Int,
-            (ScalarKind::Uint, 4) => Kind::Uint,
+            (ScalarKind::Float, 4) | (ScalarKind::AbstractFloat, _) => SlotKind::Single,
+            (ScalarKind::Float, 8) => SlotKind::Double,
+            (ScalarKind::Bool, _) => SlotKind::Bool,
+            (ScalarKind::Sint, 4) | (ScalarKind::AbstractInt, _) => SlotKind::Int,
+            (ScalarKind::Uint, 4) => SlotKind::Uint,
             _ => return self.refuse("numbers are float, double, int, uint and bool"),
         })
     }
 
     /// The place of a constant.
-    pub fn constant(&mut self, kind: Kind, value: f64) -> Result<u16, RoutineError> {
+    pub fn constant(&mut self, kind: SlotKind, value: f64) -> Result<u16, RoutineError> {
         let key = (kind, value.to_bits());
         if let Some(at) = self.constants.get(&key) {
             return Ok(*at);
@@ -170,18 +171,18 @@ impl<'a> Builder<'a> {
     }
 
     pub fn truth(&mut self, value: bool) -> Result<u16, RoutineError> {
-        self.constant(Kind::Bool, f64::from(u8::from(value)))
+        self.constant(SlotKind::Bool, f64::from(u8::from(value)))
     }
 
     /// A variable in these places, which holds a constant or not.
     pub fn variable(&mut self, slots: Vec<Slot>, _: bool) -> usize {
         // A bank that is full is told of by the next place that is asked for.
-        let flag = self.fresh(Kind::Bool).unwrap_or(0);
+        let flag = self.fresh(SlotKind::Bool).unwrap_or(0);
         self.storage.push(Storage { slots, flag });
         self.storage.len() - 1
     }
 
-    pub fn push(&mut self, step: Step) {
+    pub fn push(&mut self, step: ProgramStep) {
         self.steps += 1;
         if let Some(block) = self.blocks.last_mut() {
             block.push(step);
@@ -193,7 +194,7 @@ impl<'a> Builder<'a> {
         if let Some(cost) = self.costs.last_mut() {
             *cost += 1;
         }
-        self.push(Step::Do(op));
+        self.push(ProgramStep::Do(op));
         if self.steps > MOST_STEPS
             || self
                 .costs
@@ -211,20 +212,20 @@ impl<'a> Builder<'a> {
     pub fn block(
         &mut self,
         build: impl FnOnce(&mut Self) -> Result<(), RoutineError>,
-    ) -> Result<Vec<Step>, RoutineError> {
+    ) -> Result<Vec<ProgramStep>, RoutineError> {
         self.blocks.push(Vec::new());
         let built = build(self);
         let block = self.blocks.pop().unwrap_or_default();
         built.map(|()| block)
     }
 
-    pub fn arith(&mut self, op: Arith, kind: Kind, of: &[Slot]) -> Result<Slot, RoutineError> {
+    pub fn arith(&mut self, op: Arith, kind: SlotKind, of: &[Slot]) -> Result<Slot, RoutineError> {
         let to = self.fresh(kind)?;
         let mut operands = [0; 3];
         for (operand, slot) in operands.iter_mut().zip(of) {
             *operand = slot.at;
         }
-        let wide = kind == Kind::Double;
+        let wide = kind == SlotKind::Double;
         self.operate(Op::Arith {
             op,
             wide,
@@ -235,15 +236,15 @@ impl<'a> Builder<'a> {
     }
 
     pub fn compare(&mut self, op: Comparison, of: [Slot; 2]) -> Result<Slot, RoutineError> {
-        let to = self.fresh(Kind::Bool)?;
+        let to = self.fresh(SlotKind::Bool)?;
         let kind = of[0].kind;
         let of = of.map(|slot| slot.at);
         self.operate(Op::Compare { op, kind, to, of })?;
-        Ok(Slot::new(Kind::Bool, to))
+        Ok(Slot::new(SlotKind::Bool, to))
     }
 
     pub fn logic(&mut self, op: Logic, wide: bool, of: [u16; 2]) -> Result<u16, RoutineError> {
-        let to = self.fresh(Kind::Bool)?;
+        let to = self.fresh(SlotKind::Bool)?;
         self.operate(Op::Logic { op, wide, to, of })?;
         Ok(to)
     }
@@ -262,11 +263,11 @@ impl<'a> Builder<'a> {
     }
 
     /// Writes a value into a variable, from its n-th place on.
-    pub fn put(&mut self, variable: usize, from: usize, value: &Value) {
+    pub fn put(&mut self, variable: usize, from: usize, value: &CompiledValue) {
         let Storage { slots, flag } = self.storage[variable].clone();
         let whole = value.slots.len() == slots.len();
         for (to, from) in slots[from..].iter().zip(&value.slots) {
-            self.push(Step::Put {
+            self.push(ProgramStep::Put {
                 to: *to,
                 from: *from,
             });
@@ -278,9 +279,9 @@ impl<'a> Builder<'a> {
             Constancy::Flag(said) => Ok(said),
         };
         if let Ok(said) = said {
-            self.push(Step::Put {
-                to: Slot::new(Kind::Bool, flag),
-                from: Slot::new(Kind::Bool, said),
+            self.push(ProgramStep::Put {
+                to: Slot::new(SlotKind::Bool, flag),
+                from: Slot::new(SlotKind::Bool, said),
             });
         }
     }
@@ -289,14 +290,14 @@ impl<'a> Builder<'a> {
     pub fn note(&mut self, note: Note) {
         if self.notes.len() < MOST_NOTES {
             self.notes.push(note);
-            self.push(Step::Note(self.notes.len() - 1));
+            self.push(ProgramStep::Note(self.notes.len() - 1));
         }
     }
 
     pub fn finish(
         mut self,
-        inputs: Vec<(Input, Slot)>,
-        answer: Answer,
+        inputs: Vec<(ProgramInput, Slot)>,
+        answer: ProgramAnswer,
         signature: Signature,
     ) -> Program {
         let mut steps = self.blocks.pop().unwrap_or_default();
@@ -318,22 +319,22 @@ impl<'a> Builder<'a> {
         for ((kind, bits), at) in self.constants {
             let value = f64::from_bits(bits);
             match kind {
-                Kind::Single => program.singles.push((at, value as f32)),
-                Kind::Double => program.doubles.push((at, value)),
-                Kind::Bool => program.bools.push((at, value != 0.0)),
-                Kind::Int => program.wholes.push((at, value as i32)),
-                Kind::Uint => program.wholes.push((at, value as u32 as i32)),
+                SlotKind::Single => program.singles.push((at, value as f32)),
+                SlotKind::Double => program.doubles.push((at, value)),
+                SlotKind::Bool => program.bools.push((at, value != 0.0)),
+                SlotKind::Int => program.wholes.push((at, value as i32)),
+                SlotKind::Uint => program.wholes.push((at, value as u32 as i32)),
             }
         }
         program
     }
 }
 
-pub(super) const fn bank(kind: Kind) -> usize {
+pub(super) const fn bank(kind: SlotKind) -> usize {
     match kind {
-        Kind::Single => 0,
-        Kind::Double => 1,
-        Kind::Bool => 2,
-        Kind::Int | Kind::Uint => 3,
+        SlotKind::Single => 0,
+        SlotKind::Double => 1,
+        SlotKind::Bool => 2,
+        SlotKind::Int | SlotKind::Uint => 3,
     }
 }

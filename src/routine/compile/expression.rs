@@ -7,15 +7,15 @@ use naga::{
 
 use super::super::RoutineError;
 use super::super::mathematics;
-use super::super::program::{Arith, Comparison, Kind, Logic, Op, Slot, Whole};
-use super::build::{Builder, Constancy, Value};
-use super::function::{Argument, Frame, Local, Variable};
+use super::super::program::{Arith, Comparison, Logic, Op, Slot, SlotKind, Whole};
+use super::build::{Builder, CompiledValue, Constancy};
+use super::function::{Argument, CallFrame, Local, Variable};
 
 type Built<T> = Result<T, RoutineError>;
 
 impl<'a> Builder<'a> {
     /// Works out an expression where the text has it.
-    pub fn emit(&mut self, frame: &mut Frame<'a>, handle: Handle<Expression>) -> Built<()> {
+    pub fn emit(&mut self, frame: &mut CallFrame<'a>, handle: Handle<Expression>) -> Built<()> {
         let types = &self.module().types;
         let inner = frame.info[handle].ty.inner_with(types);
         if matches!(
@@ -35,7 +35,11 @@ impl<'a> Builder<'a> {
     }
 
     /// The value of an expression that was worked out, or that needs no work.
-    pub fn value(&mut self, frame: &mut Frame<'a>, handle: Handle<Expression>) -> Built<Value> {
+    pub fn value(
+        &mut self,
+        frame: &mut CallFrame<'a>,
+        handle: Handle<Expression>,
+    ) -> Built<CompiledValue> {
         match frame.values.get(&handle) {
             Some(value) => Ok(value.clone()),
             None => self.work(frame, handle),
@@ -43,7 +47,7 @@ impl<'a> Builder<'a> {
     }
 
     /// The value of an expression outside functions.
-    pub fn global_value(&mut self, handle: Handle<Expression>) -> Built<Value> {
+    pub fn global_value(&mut self, handle: Handle<Expression>) -> Built<CompiledValue> {
         let expressions = &self.module().global_expressions;
         match &expressions[handle] {
             Expression::Compose { components, .. } => {
@@ -66,7 +70,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    pub fn zero(&mut self, inner: &TypeInner) -> Built<Value> {
+    pub fn zero(&mut self, inner: &TypeInner) -> Built<CompiledValue> {
         let mut slots = Vec::new();
         for kind in self.kinds(inner)? {
             let at = self.constant(kind, 0.0)?;
@@ -75,15 +79,15 @@ impl<'a> Builder<'a> {
         Ok(always(slots))
     }
 
-    fn literal(&mut self, literal: Literal) -> Built<Value> {
+    fn literal(&mut self, literal: Literal) -> Built<CompiledValue> {
         let (kind, value) = match literal {
-            Literal::F32(x) => (Kind::Single, f64::from(x)),
-            Literal::F64(x) => (Kind::Double, x),
-            Literal::AbstractFloat(x) => (Kind::Single, x),
-            Literal::I32(x) => (Kind::Int, x.into()),
-            Literal::U32(x) => (Kind::Uint, x.into()),
-            Literal::AbstractInt(x) => (Kind::Int, x as f64),
-            Literal::Bool(x) => (Kind::Bool, f64::from(u8::from(x))),
+            Literal::F32(x) => (SlotKind::Single, f64::from(x)),
+            Literal::F64(x) => (SlotKind::Double, x),
+            Literal::AbstractFloat(x) => (SlotKind::Single, x),
+            Literal::I32(x) => (SlotKind::Int, x.into()),
+            Literal::U32(x) => (SlotKind::Uint, x.into()),
+            Literal::AbstractInt(x) => (SlotKind::Int, x as f64),
+            Literal::Bool(x) => (SlotKind::Bool, f64::from(u8::from(x))),
             _ => return self.refuse("numbers are float, double, int, uint and bool"),
         };
         let at = self.constant(kind, value)?;
@@ -93,13 +97,13 @@ impl<'a> Builder<'a> {
     /// What a pointer points to, if it is a variable that is stored.
     pub fn pointer_if_any(
         &self,
-        frame: &Frame<'a>,
+        frame: &CallFrame<'a>,
         handle: Handle<Expression>,
     ) -> Option<Variable> {
         self.pointer(frame, handle).ok()
     }
 
-    pub fn pointer(&self, frame: &Frame<'a>, handle: Handle<Expression>) -> Built<Variable> {
+    pub fn pointer(&self, frame: &CallFrame<'a>, handle: Handle<Expression>) -> Built<Variable> {
         let expressions = &frame.function.expressions;
         match &expressions[handle] {
             Expression::LocalVariable(local) => match frame.locals.get(local) {
@@ -138,7 +142,7 @@ impl<'a> Builder<'a> {
     }
 
     /// The type that a pointer points to.
-    fn pointed(&self, frame: &Frame<'a>, handle: Handle<Expression>) -> &'a TypeInner {
+    fn pointed(&self, frame: &CallFrame<'a>, handle: Handle<Expression>) -> &'a TypeInner {
         let types = &self.parsed.module.types;
         match frame.info[handle].ty.inner_with(types) {
             TypeInner::Pointer { base, .. } => &types[*base].inner,
@@ -146,7 +150,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    fn index(&self, frame: &Frame<'a>, handle: Handle<Expression>) -> Built<u32> {
+    fn index(&self, frame: &CallFrame<'a>, handle: Handle<Expression>) -> Built<u32> {
         match frame.function.expressions[handle] {
             Expression::Literal(Literal::I32(i)) => {
                 u32::try_from(i).or_else(|_| self.refuse("an index below 0"))
@@ -182,7 +186,11 @@ impl<'a> Builder<'a> {
     }
 
     #[expect(clippy::too_many_lines, reason = "one arm for each kind of expression")]
-    fn work(&mut self, frame: &mut Frame<'a>, handle: Handle<Expression>) -> Built<Value> {
+    fn work(
+        &mut self,
+        frame: &mut CallFrame<'a>,
+        handle: Handle<Expression>,
+    ) -> Built<CompiledValue> {
         let function = frame.function;
         match &function.expressions[handle] {
             Expression::Literal(literal) => self.literal(*literal),
@@ -196,7 +204,7 @@ impl<'a> Builder<'a> {
                     parts.push(self.value(frame, *component)?);
                 }
                 let constancy = self.all(parts.iter().map(|part| part.constancy))?;
-                Ok(Value {
+                Ok(CompiledValue {
                     slots: parts.into_iter().flat_map(|part| part.slots).collect(),
                     constancy,
                     of: None,
@@ -205,7 +213,7 @@ impl<'a> Builder<'a> {
             }
             Expression::Splat { size, value } => {
                 let one = self.value(frame, *value)?;
-                Ok(Value {
+                Ok(CompiledValue {
                     slots: vec![one.slots[0]; *size as usize],
                     ..one
                 })
@@ -219,7 +227,7 @@ impl<'a> Builder<'a> {
                 let slots = pattern[..*size as usize]
                     .iter()
                     .map(|component| whole.slots[*component as usize]);
-                Ok(Value {
+                Ok(CompiledValue {
                     slots: slots.collect(),
                     ..whole
                 })
@@ -230,7 +238,7 @@ impl<'a> Builder<'a> {
                 self.access(frame, *base, index)
             }
             Expression::FunctionArgument(i) => match frame.arguments.get(*i as usize) {
-                Some(Argument::Value(value)) => Ok(value.clone()),
+                Some(Argument::CompiledValue(value)) => Ok(value.clone()),
                 _ => self.refuse("this parameter is written to, not read"),
             },
             Expression::Load { pointer } => self.load(frame, *pointer),
@@ -290,17 +298,17 @@ impl<'a> Builder<'a> {
     /// A value made of several: what lies in variables is copied, for one value has one variable at most.
     fn unaliased(
         &mut self,
-        frame: &mut Frame<'a>,
-        mut value: Value,
+        frame: &mut CallFrame<'a>,
+        mut value: CompiledValue,
         parts: &[Handle<Expression>],
-    ) -> Built<Value> {
+    ) -> Built<CompiledValue> {
         let mut at = 0;
         for part in parts {
             let part = self.value(frame, *part)?;
             if part.of.is_some() {
                 for slot in &mut value.slots[at..at + part.slots.len()] {
                     let to = self.fresh_slot(slot.kind)?;
-                    self.push(super::super::program::Step::Put { to, from: *slot });
+                    self.push(super::super::program::ProgramStep::Put { to, from: *slot });
                     *slot = to;
                 }
             }
@@ -311,26 +319,30 @@ impl<'a> Builder<'a> {
 
     fn access(
         &mut self,
-        frame: &mut Frame<'a>,
+        frame: &mut CallFrame<'a>,
         base: Handle<Expression>,
         index: u32,
-    ) -> Built<Value> {
+    ) -> Built<CompiledValue> {
         let whole = self.value(frame, base)?;
         let types = &self.parsed.module.types;
         let (from, count) = self.part(frame.info[base].ty.inner_with(types), index)?;
-        Ok(Value {
+        Ok(CompiledValue {
             slots: whole.slots[from..from + count].to_vec(),
             ..whole
         })
     }
 
-    fn load(&mut self, frame: &mut Frame<'a>, pointer: Handle<Expression>) -> Built<Value> {
+    fn load(
+        &mut self,
+        frame: &mut CallFrame<'a>,
+        pointer: Handle<Expression>,
+    ) -> Built<CompiledValue> {
         if let Some(value) = self.once(frame, pointer)? {
             return Ok(value);
         }
         let variable = self.pointer(frame, pointer)?;
         let storage = &self.storage[variable.storage];
-        let value = Value {
+        let value = CompiledValue {
             slots: variable.slots(self),
             constancy: Constancy::Flag(storage.flag),
             of: Some(variable.storage),
@@ -344,16 +356,20 @@ impl<'a> Builder<'a> {
             let mut copy = value;
             for slot in &mut copy.slots {
                 let to = self.fresh_slot(slot.kind)?;
-                self.push(super::super::program::Step::Put { to, from: *slot });
+                self.push(super::super::program::ProgramStep::Put { to, from: *slot });
                 *slot = to;
             }
-            return Ok(Value { of: None, ..copy });
+            return Ok(CompiledValue { of: None, ..copy });
         }
         Ok(value)
     }
 
     /// A variable that is written once is its value; none for others.
-    fn once(&mut self, frame: &mut Frame<'a>, pointer: Handle<Expression>) -> Built<Option<Value>> {
+    fn once(
+        &mut self,
+        frame: &mut CallFrame<'a>,
+        pointer: Handle<Expression>,
+    ) -> Built<Option<CompiledValue>> {
         let function = frame.function;
         match &function.expressions[pointer] {
             Expression::LocalVariable(local) => match frame.locals.get(local) {
@@ -369,7 +385,7 @@ impl<'a> Builder<'a> {
                     return Ok(None);
                 };
                 let (from, count) = self.part(self.pointed(frame, *base), *index)?;
-                Ok(Some(Value {
+                Ok(Some(CompiledValue {
                     slots: whole.slots[from..from + count].to_vec(),
                     ..whole
                 }))
@@ -380,7 +396,7 @@ impl<'a> Builder<'a> {
                 };
                 let index = self.index(frame, *index)?;
                 let (from, count) = self.part(self.pointed(frame, *base), index)?;
-                Ok(Some(Value {
+                Ok(Some(CompiledValue {
                     slots: whole.slots[from..from + count].to_vec(),
                     ..whole
                 }))
@@ -404,7 +420,7 @@ impl<'a> Builder<'a> {
         Ok(all)
     }
 
-    fn unary(&mut self, op: UnaryOperator, of: &Value) -> Built<Value> {
+    fn unary(&mut self, op: UnaryOperator, of: &CompiledValue) -> Built<CompiledValue> {
         let mut slots = Vec::new();
         for slot in &of.slots {
             slots.push(match (op, slot.kind) {
@@ -414,12 +430,12 @@ impl<'a> Builder<'a> {
                 (UnaryOperator::Negate, _) => self.whole(Whole::Neg, [*slot, *slot])?,
                 (UnaryOperator::LogicalNot, _) => {
                     let at = self.logic(Logic::Not, false, [slot.at, 0])?;
-                    Slot::new(Kind::Bool, at)
+                    Slot::new(SlotKind::Bool, at)
                 }
                 (UnaryOperator::BitwiseNot, _) => self.whole(Whole::Not, [*slot, *slot])?,
             });
         }
-        Ok(Value {
+        Ok(CompiledValue {
             slots,
             constancy: worked(&[of]),
             of: None,
@@ -431,7 +447,7 @@ impl<'a> Builder<'a> {
         let to = self.fresh(kind)?;
         self.operate(Op::Whole {
             op,
-            unsigned: kind == Kind::Uint,
+            unsigned: kind == SlotKind::Uint,
             to,
             of: of.map(|slot| slot.at),
         })?;
@@ -440,11 +456,11 @@ impl<'a> Builder<'a> {
 
     fn binary(
         &mut self,
-        frame: &mut Frame<'a>,
+        frame: &mut CallFrame<'a>,
         op: B,
         left: Handle<Expression>,
         right: Handle<Expression>,
-    ) -> Built<Value> {
+    ) -> Built<CompiledValue> {
         let types = &self.parsed.module.types;
         for side in [left, right] {
             if matches!(
@@ -461,14 +477,16 @@ impl<'a> Builder<'a> {
             None
         };
         let count = x.slots.len().max(y.slots.len());
-        let at = |value: &Value, i: usize| value.slots[if value.slots.len() == 1 { 0 } else { i }];
+        let at = |value: &CompiledValue, i: usize| {
+            value.slots[if value.slots.len() == 1 { 0 } else { i }]
+        };
         let mut slots = fused.unwrap_or_default();
         for i in slots.len()..count {
             let slot = self.binary_one(op, at(&x, i), at(&y, i))?;
             slots.push(slot);
         }
         // Vectors are compared as a whole by == and !=.
-        Ok(Value {
+        Ok(CompiledValue {
             slots,
             constancy: worked(&[&x, &y]),
             of: None,
@@ -478,10 +496,10 @@ impl<'a> Builder<'a> {
     /// A product and the sum that uses it, rounded once.
     fn fused(
         &mut self,
-        frame: &mut Frame<'a>,
+        frame: &mut CallFrame<'a>,
         op: B,
-        (left, x): (Handle<Expression>, &Value),
-        (right, y): (Handle<Expression>, &Value),
+        (left, x): (Handle<Expression>, &CompiledValue),
+        (right, y): (Handle<Expression>, &CompiledValue),
     ) -> Built<Option<Vec<Slot>>> {
         let function = frame.function;
         let factors = |handle: Handle<Expression>| match function.expressions[handle] {
@@ -501,7 +519,9 @@ impl<'a> Builder<'a> {
             self.value(frame, product[0])?,
             self.value(frame, product[1])?,
         ];
-        let at = |value: &Value, i: usize| value.slots[if value.slots.len() == 1 { 0 } else { i }];
+        let at = |value: &CompiledValue, i: usize| {
+            value.slots[if value.slots.len() == 1 { 0 } else { i }]
+        };
         let mut slots = Vec::new();
         for i in 0..x.slots.len().max(y.slots.len()) {
             let (mut p, q, mut z) = (at(&p, i), at(&q, i), at(other, i));
@@ -529,18 +549,18 @@ impl<'a> Builder<'a> {
             _ => None,
         };
         if let Some(comparison) = comparison {
-            if x.kind == Kind::Bool {
+            if x.kind == SlotKind::Bool {
                 let op = if op == B::Equal {
                     Logic::Equal
                 } else {
                     Logic::NotEqual
                 };
                 let at = self.logic(op, false, [x.at, y.at])?;
-                return Ok(Slot::new(Kind::Bool, at));
+                return Ok(Slot::new(SlotKind::Bool, at));
             }
             return self.compare(comparison, [x, y]);
         }
-        if x.kind == Kind::Bool {
+        if x.kind == SlotKind::Bool {
             let op = match op {
                 B::LogicalAnd | B::And => Logic::And,
                 B::LogicalOr | B::InclusiveOr => Logic::Or,
@@ -548,7 +568,7 @@ impl<'a> Builder<'a> {
                 _ => return self.refuse("true and false are joined by && and ||"),
             };
             let at = self.logic(op, false, [x.at, y.at])?;
-            return Ok(Slot::new(Kind::Bool, at));
+            return Ok(Slot::new(SlotKind::Bool, at));
         }
         if x.kind.is_real() {
             let arith = match op {
@@ -576,7 +596,12 @@ impl<'a> Builder<'a> {
         self.whole(whole, [x, y])
     }
 
-    fn selected(&mut self, condition: &Value, accept: &Value, reject: &Value) -> Built<Value> {
+    fn selected(
+        &mut self,
+        condition: &CompiledValue,
+        accept: &CompiledValue,
+        reject: &CompiledValue,
+    ) -> Built<CompiledValue> {
         let mut slots = Vec::new();
         for (i, pair) in accept.slots.iter().zip(&reject.slots).enumerate() {
             let condition = condition.slots[if condition.slots.len() == 1 { 0 } else { i }];
@@ -590,22 +615,26 @@ impl<'a> Builder<'a> {
                     Constancy::Flag(flag) => Ok(flag),
                     known => self.truth(known == Constancy::Always),
                 };
-                let of = [at(one)?, at(other)?].map(|at| Slot::new(Kind::Bool, at));
+                let of = [at(one)?, at(other)?].map(|at| Slot::new(SlotKind::Bool, at));
                 Constancy::Flag(self.select(condition.slots[0].at, of)?.at)
             }
         };
-        Ok(Value {
+        Ok(CompiledValue {
             slots,
             constancy,
             of: None,
         })
     }
 
-    fn relational(&mut self, function: RelationalFunction, of: &Value) -> Built<Value> {
+    fn relational(
+        &mut self,
+        function: RelationalFunction,
+        of: &CompiledValue,
+    ) -> Built<CompiledValue> {
         use RelationalFunction as R;
         let mut slots = Vec::new();
         for slot in &of.slots {
-            let wide = slot.kind == Kind::Double;
+            let wide = slot.kind == SlotKind::Double;
             match function {
                 R::IsNan => slots.push(self.logic(Logic::IsNan, wide, [slot.at, 0])?),
                 R::IsInf => slots.push(self.logic(Logic::IsInf, wide, [slot.at, 0])?),
@@ -623,17 +652,22 @@ impl<'a> Builder<'a> {
                 }
             }
         }
-        Ok(Value {
+        Ok(CompiledValue {
             slots: slots
                 .into_iter()
-                .map(|at| Slot::new(Kind::Bool, at))
+                .map(|at| Slot::new(SlotKind::Bool, at))
                 .collect(),
             constancy: worked(&[of]),
             of: None,
         })
     }
 
-    fn converted(&mut self, of: &Value, kind: ScalarKind, width: u8) -> Built<Value> {
+    fn converted(
+        &mut self,
+        of: &CompiledValue,
+        kind: ScalarKind,
+        width: u8,
+    ) -> Built<CompiledValue> {
         let kind = self.kind(naga::Scalar { kind, width })?;
         let mut slots = Vec::new();
         for from in &of.slots {
@@ -645,16 +679,21 @@ impl<'a> Builder<'a> {
             self.operate(Op::Convert { from: *from, to })?;
             slots.push(to);
         }
-        Ok(Value {
+        Ok(CompiledValue {
             slots,
             constancy: worked(&[of]),
             of: of.of,
         })
     }
 
-    fn math(&mut self, function: F, arguments: &[Value], exponent: Option<u32>) -> Built<Value> {
+    fn math(
+        &mut self,
+        function: F,
+        arguments: &[CompiledValue],
+        exponent: Option<u32>,
+    ) -> Built<CompiledValue> {
         let slots = self.math_slots(function, arguments, exponent)?;
-        Ok(Value {
+        Ok(CompiledValue {
             slots,
             constancy: worked(&arguments.iter().collect::<Vec<_>>()),
             of: None,
@@ -664,7 +703,7 @@ impl<'a> Builder<'a> {
     fn math_slots(
         &mut self,
         function: F,
-        arguments: &[Value],
+        arguments: &[CompiledValue],
         exponent: Option<u32>,
     ) -> Built<Vec<Slot>> {
         let x = &arguments[0].slots;
@@ -801,7 +840,7 @@ impl<'a> Builder<'a> {
         self.whole(op, [of[0], *of.get(1).unwrap_or(&of[0])])
     }
 
-    fn number(&mut self, kind: Kind, value: f64) -> Built<Slot> {
+    fn number(&mut self, kind: SlotKind, value: f64) -> Built<Slot> {
         Ok(Slot::new(kind, self.constant(kind, value)?))
     }
 
@@ -873,8 +912,8 @@ impl<'a> Builder<'a> {
     }
 }
 
-fn always(slots: Vec<Slot>) -> Value {
-    Value {
+fn always(slots: Vec<Slot>) -> CompiledValue {
+    CompiledValue {
         slots,
         constancy: Constancy::Always,
         of: None,
@@ -882,7 +921,7 @@ fn always(slots: Vec<Slot>) -> Value {
 }
 
 /// What is worked out of constants alone is one.
-fn worked(of: &[&Value]) -> Constancy {
+fn worked(of: &[&CompiledValue]) -> Constancy {
     let all = of.iter().all(|value| value.constancy == Constancy::Always);
     if all {
         Constancy::Always

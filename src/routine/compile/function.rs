@@ -6,9 +6,9 @@ use naga::valid::FunctionInfo;
 use naga::{Block, Expression, Function, Handle, LocalVariable, Span, Statement};
 
 use super::super::RoutineError;
-use super::super::program::{Kind, Note, Returned, Slot, Step};
+use super::super::program::{Note, ProgramStep, Returned, Slot, SlotKind};
 use super::base;
-use super::build::{Builder, Constancy, Value};
+use super::build::{Builder, CompiledValue, Constancy};
 
 /// How deep calls may nest.
 const DEEPEST_CALL: usize = 16;
@@ -16,7 +16,7 @@ const DEEPEST_CALL: usize = 16;
 /// What a function is called with.
 #[derive(Debug, Clone)]
 pub(super) enum Argument {
-    Value(Value),
+    CompiledValue(CompiledValue),
     Variable(Variable),
 }
 
@@ -46,21 +46,21 @@ impl Variable {
 #[derive(Debug, Clone)]
 pub(super) enum Local {
     /// Written once, before it is read: the value itself.
-    Once(Option<Value>),
+    Once(Option<CompiledValue>),
     Stored(usize),
 }
 
 /// A call that is being put in.
-pub(super) struct Frame<'a> {
+pub(super) struct CallFrame<'a> {
     pub function: &'a Function,
     pub info: &'a FunctionInfo,
     pub arguments: Vec<Argument>,
-    pub values: HashMap<Handle<Expression>, Value>,
+    pub values: HashMap<Handle<Expression>, CompiledValue>,
     pub locals: HashMap<Handle<LocalVariable>, Local>,
     /// Where what is returned goes.
     result: Option<usize>,
     /// What is returned at the end, if nothing returns before.
-    last: Option<Value>,
+    last: Option<CompiledValue>,
     returns_once: bool,
     /// The name, unless it is the routine itself.
     name: Option<String>,
@@ -74,7 +74,7 @@ impl<'a> Builder<'a> {
         handle: Handle<Function>,
         arguments: &[Argument],
         is_routine: bool,
-    ) -> Result<Option<Value>, RoutineError> {
+    ) -> Result<Option<CompiledValue>, RoutineError> {
         self.call_within(handle, arguments, is_routine, 0)
     }
 
@@ -84,7 +84,7 @@ impl<'a> Builder<'a> {
         arguments: &[Argument],
         is_routine: bool,
         depth: usize,
-    ) -> Result<Option<Value>, RoutineError> {
+    ) -> Result<Option<CompiledValue>, RoutineError> {
         if depth > DEEPEST_CALL {
             return self.refuse("functions call one another too deep");
         }
@@ -98,7 +98,7 @@ impl<'a> Builder<'a> {
             }
             _ => None,
         };
-        let mut frame = Frame {
+        let mut frame = CallFrame {
             function,
             info: &parsed.info[handle],
             arguments: arguments.to_vec(),
@@ -116,10 +116,10 @@ impl<'a> Builder<'a> {
             return Ok(frame.last);
         }
         let body = self.block(|builder| builder.statements(&mut frame, &function.body))?;
-        self.push(Step::Scope(body));
+        self.push(ProgramStep::Scope(body));
         Ok(result.map(|storage| {
             let stored = &self.storage[storage];
-            Value {
+            CompiledValue {
                 slots: stored.slots.clone(),
                 constancy: Constancy::Flag(stored.flag),
                 of: None,
@@ -127,7 +127,7 @@ impl<'a> Builder<'a> {
         }))
     }
 
-    fn locals(&mut self, frame: &mut Frame<'a>) -> Result<(), RoutineError> {
+    fn locals(&mut self, frame: &mut CallFrame<'a>) -> Result<(), RoutineError> {
         let once = written_once(frame.function);
         for (handle, local) in frame.function.local_variables.iter() {
             if once.contains(&handle) && local.init.is_none() {
@@ -146,7 +146,7 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
-    fn statements(&mut self, frame: &mut Frame<'a>, block: &Block) -> Result<(), RoutineError> {
+    fn statements(&mut self, frame: &mut CallFrame<'a>, block: &Block) -> Result<(), RoutineError> {
         for (statement, span) in block.span_iter() {
             if let Some(range) = span.to_range().filter(|range| range.end > 0) {
                 self.at = range.start;
@@ -158,7 +158,7 @@ impl<'a> Builder<'a> {
 
     fn statement(
         &mut self,
-        frame: &mut Frame<'a>,
+        frame: &mut CallFrame<'a>,
         statement: &Statement,
         span: Span,
     ) -> Result<(), RoutineError> {
@@ -189,7 +189,7 @@ impl<'a> Builder<'a> {
                 frame.values.clone_from(&values);
                 let reject = self.block(|builder| builder.statements(frame, reject))?;
                 frame.values = values;
-                self.push(Step::If {
+                self.push(ProgramStep::If {
                     condition: asked.slots[0].at,
                     accept,
                     reject,
@@ -200,8 +200,8 @@ impl<'a> Builder<'a> {
                 continuing,
                 break_if,
             } => self.loops(frame, body, continuing, *break_if)?,
-            Statement::Break => self.push(Step::Break),
-            Statement::Continue => self.push(Step::Continue),
+            Statement::Break => self.push(ProgramStep::Break),
+            Statement::Continue => self.push(ProgramStep::Continue),
             Statement::Switch { .. } => {
                 return self.refuse("switch is not run here; write if and else");
             }
@@ -213,7 +213,7 @@ impl<'a> Builder<'a> {
 
     fn loops(
         &mut self,
-        frame: &mut Frame<'a>,
+        frame: &mut CallFrame<'a>,
         body: &Block,
         continuing: &Block,
         break_if: Option<Handle<Expression>>,
@@ -232,7 +232,7 @@ impl<'a> Builder<'a> {
         })?;
         let cost = self.costs.pop().unwrap_or(1);
         frame.values = values;
-        self.push(Step::Loop {
+        self.push(ProgramStep::Loop {
             body: inside,
             continuing: after,
             break_if: last,
@@ -243,7 +243,7 @@ impl<'a> Builder<'a> {
 
     fn store(
         &mut self,
-        frame: &mut Frame<'a>,
+        frame: &mut CallFrame<'a>,
         pointer: Handle<Expression>,
         value: Handle<Expression>,
         span: Span,
@@ -280,7 +280,7 @@ impl<'a> Builder<'a> {
 
     fn calls(
         &mut self,
-        frame: &mut Frame<'a>,
+        frame: &mut CallFrame<'a>,
         called: Handle<Function>,
         arguments: &[Handle<Expression>],
         result: Option<Handle<Expression>>,
@@ -295,7 +295,7 @@ impl<'a> Builder<'a> {
                 self.keep(frame, &[variable.storage])?;
                 Argument::Variable(variable)
             } else {
-                Argument::Value(self.value(frame, *argument)?)
+                Argument::CompiledValue(self.value(frame, *argument)?)
             });
         }
         let at = self.at;
@@ -309,7 +309,7 @@ impl<'a> Builder<'a> {
 
     fn returns(
         &mut self,
-        frame: &mut Frame<'a>,
+        frame: &mut CallFrame<'a>,
         value: Option<Handle<Expression>>,
         span: Span,
     ) -> Result<(), RoutineError> {
@@ -322,13 +322,17 @@ impl<'a> Builder<'a> {
             }
         }
         if !frame.returns_once {
-            self.push(Step::Leave);
+            self.push(ProgramStep::Leave);
         }
         Ok(())
     }
 
     /// Copies what was read from variables that these blocks write.
-    fn keep_from(&mut self, frame: &mut Frame<'a>, blocks: &[&Block]) -> Result<(), RoutineError> {
+    fn keep_from(
+        &mut self,
+        frame: &mut CallFrame<'a>,
+        blocks: &[&Block],
+    ) -> Result<(), RoutineError> {
         let mut written = Vec::new();
         for block in blocks {
             writes(block, &mut |pointer| {
@@ -341,7 +345,7 @@ impl<'a> Builder<'a> {
     }
 
     /// Copies what was read from these variables, for they are about to be written.
-    fn keep(&mut self, frame: &mut Frame<'a>, written: &[usize]) -> Result<(), RoutineError> {
+    fn keep(&mut self, frame: &mut CallFrame<'a>, written: &[usize]) -> Result<(), RoutineError> {
         let read: Vec<_> = frame
             .values
             .iter()
@@ -355,23 +359,23 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
-    fn copied(&mut self, value: &Value) -> Result<Value, RoutineError> {
+    fn copied(&mut self, value: &CompiledValue) -> Result<CompiledValue, RoutineError> {
         let mut slots = Vec::new();
         for from in &value.slots {
             let to = self.fresh_slot(from.kind)?;
-            self.push(Step::Put { to, from: *from });
+            self.push(ProgramStep::Put { to, from: *from });
             slots.push(to);
         }
         let constancy = match value.constancy {
             Constancy::Flag(flag) => {
-                let from = Slot::new(Kind::Bool, flag);
-                let to = self.fresh_slot(Kind::Bool)?;
-                self.push(Step::Put { to, from });
+                let from = Slot::new(SlotKind::Bool, flag);
+                let to = self.fresh_slot(SlotKind::Bool)?;
+                self.push(ProgramStep::Put { to, from });
                 Constancy::Flag(to.at)
             }
             known => known,
         };
-        Ok(Value {
+        Ok(CompiledValue {
             slots,
             constancy,
             of: None,
@@ -380,11 +384,11 @@ impl<'a> Builder<'a> {
 
     fn note_kept(
         &mut self,
-        frame: &Frame<'a>,
+        frame: &CallFrame<'a>,
         pointer: Handle<Expression>,
         value: Handle<Expression>,
         span: Span,
-        stored: &Value,
+        stored: &CompiledValue,
     ) {
         let expressions = &frame.function.expressions;
         let text = self.text(span);
@@ -410,7 +414,12 @@ impl<'a> Builder<'a> {
         self.note(note);
     }
 
-    fn note_asked(&mut self, frame: &Frame<'a>, condition: Handle<Expression>, asked: &Value) {
+    fn note_asked(
+        &mut self,
+        frame: &CallFrame<'a>,
+        condition: Handle<Expression>,
+        asked: &CompiledValue,
+    ) {
         let span = frame.function.expressions.get_span(condition);
         let mut formula = self.text(span);
         if formula.is_empty() {
@@ -422,10 +431,10 @@ impl<'a> Builder<'a> {
 
     fn note_given(
         &mut self,
-        frame: &Frame<'a>,
+        frame: &CallFrame<'a>,
         value: Handle<Expression>,
         span: Span,
-        given: &Value,
+        given: &CompiledValue,
     ) {
         let mut formula = self.text(frame.function.expressions.get_span(value));
         if formula.is_empty() {
@@ -437,7 +446,12 @@ impl<'a> Builder<'a> {
     }
 
     /// A name for a value, in the languages that name values.
-    pub fn note_named(&mut self, frame: &Frame<'a>, handle: Handle<Expression>, value: &Value) {
+    pub fn note_named(
+        &mut self,
+        frame: &CallFrame<'a>,
+        handle: Handle<Expression>,
+        value: &CompiledValue,
+    ) {
         let Some(name) = frame.function.named_expressions.get(&handle) else {
             return;
         };
@@ -448,11 +462,11 @@ impl<'a> Builder<'a> {
 
     fn note_of(
         &self,
-        frame: &Frame<'a>,
+        frame: &CallFrame<'a>,
         returned: Returned,
         name: Option<String>,
         formula: String,
-        value: &Value,
+        value: &CompiledValue,
     ) -> Note {
         Note {
             line: self.source.place(self.at).0,

@@ -9,12 +9,12 @@ mod prune;
 use naga::{AddressSpace, Handle, Type};
 
 use super::RoutineError;
-use super::front::Parsed;
-use super::guard::Source;
-use super::program::{Answer, Input, Kind, Program, Slot};
-use super::role::Role;
-use super::signature::{self, Answers, Candidate, NoHit, Shape, Signature};
-use build::{Builder, Constancy, Value};
+use super::front::ParsedModule;
+use super::guard::RoutineSource;
+use super::program::{Program, ProgramAnswer, ProgramInput, Slot, SlotKind};
+use super::role::ParameterRole;
+use super::signature::{self, AnswerKind, LeafShape, NoHit, RoutineCandidate, Signature};
+use build::{Builder, CompiledValue, Constancy};
 use function::{Argument, Variable};
 
 /// The most operations that a run may cost, over all loops.
@@ -22,8 +22,8 @@ pub(super) const MOST_OPERATIONS: u32 = 10_000;
 
 /// Compiles the routine of a module.
 pub(super) fn compile(
-    source: &Source,
-    parsed: &Parsed,
+    source: &RoutineSource,
+    parsed: &ParsedModule,
     contract: bool,
 ) -> Result<Program, RoutineError> {
     let candidate = signature::choose(source, &parsed.module)?;
@@ -72,8 +72,8 @@ fn globals(builder: &mut Builder<'_>) -> Result<(), RoutineError> {
 /// The parameters as values and variables, and which number of the question goes where.
 fn arguments(
     builder: &mut Builder<'_>,
-    candidate: &Candidate,
-    inputs: &mut Vec<(Input, Slot)>,
+    candidate: &RoutineCandidate,
+    inputs: &mut Vec<(ProgramInput, Slot)>,
 ) -> Result<Vec<Argument>, RoutineError> {
     let module = &builder.parsed.module;
     let function = &module.functions[candidate.function];
@@ -94,8 +94,8 @@ fn arguments(
         let mut at = 0;
         for (leaf, role) in parts {
             let count = match leaf.shape {
-                Shape::Real(n) => usize::from(n),
-                Shape::Bool | Shape::Int => 1,
+                LeafShape::Real(n) => usize::from(n),
+                LeafShape::Bool | LeafShape::Int => 1,
             };
             if let Some(role) = role {
                 for (axis, slot) in slots[at..at + count].iter().enumerate() {
@@ -104,7 +104,7 @@ fn arguments(
             }
             at += count;
         }
-        arguments.push(Argument::Value(Value {
+        arguments.push(Argument::CompiledValue(CompiledValue {
             slots,
             constancy: Constancy::Never,
             of: None,
@@ -120,29 +120,29 @@ pub(super) fn base(module: &naga::Module, ty: Handle<Type>) -> Handle<Type> {
     }
 }
 
-fn input(role: Role, axis: u8) -> Option<Input> {
+fn input(role: ParameterRole, axis: u8) -> Option<ProgramInput> {
     Some(match role {
-        Role::Origin => Input::Origin(axis),
-        Role::FromCenter => Input::FromCenter(axis),
-        Role::Direction => Input::Direction(axis),
-        Role::Radius => Input::Radius,
-        Role::RadiusSquared => Input::RadiusSquared,
-        Role::Sphere if axis == 3 => Input::Radius,
-        Role::Center | Role::Sphere => Input::Center(axis),
-        Role::Least => Input::Least,
-        Role::Most => Input::Most,
-        Role::Near | Role::Far | Role::Other => return None,
+        ParameterRole::Origin => ProgramInput::Origin(axis),
+        ParameterRole::FromCenter => ProgramInput::FromCenter(axis),
+        ParameterRole::Direction => ProgramInput::Direction(axis),
+        ParameterRole::Radius => ProgramInput::Radius,
+        ParameterRole::RadiusSquared => ProgramInput::RadiusSquared,
+        ParameterRole::Sphere if axis == 3 => ProgramInput::Radius,
+        ParameterRole::Center | ParameterRole::Sphere => ProgramInput::Center(axis),
+        ParameterRole::Least => ProgramInput::Least,
+        ParameterRole::Most => ProgramInput::Most,
+        ParameterRole::Near | ParameterRole::Far | ParameterRole::Other => return None,
     })
 }
 
-fn parameters(candidate: &Candidate) -> Vec<(String, Role)> {
-    let mut roots = [Role::Near, Role::Far].into_iter();
+fn parameters(candidate: &RoutineCandidate) -> Vec<(String, ParameterRole)> {
+    let mut roots = [ParameterRole::Near, ParameterRole::Far].into_iter();
     let parts = candidate.given.iter().flatten();
     parts
         .map(|(leaf, role)| {
             let role = role.unwrap_or_else(|| match leaf.shape {
-                Shape::Real(1) => roots.next().unwrap_or(Role::Other),
-                _ => Role::Other,
+                LeafShape::Real(1) => roots.next().unwrap_or(ParameterRole::Other),
+                _ => ParameterRole::Other,
             });
             (leaf.name.clone(), role)
         })
@@ -152,22 +152,22 @@ fn parameters(candidate: &Candidate) -> Vec<(String, Role)> {
 /// Where the answer lies.
 fn answer(
     builder: &mut Builder<'_>,
-    candidate: &Candidate,
+    candidate: &RoutineCandidate,
     arguments: &[Argument],
-    result: Option<&Value>,
-) -> Answer {
-    let mut answer = Answer {
+    result: Option<&CompiledValue>,
+) -> ProgramAnswer {
+    let mut answer = ProgramAnswer {
         found: None,
         count: None,
         roots: Vec::new(),
         constant: None,
         no_hit: NoHit::Nothing,
     };
-    let mut take = |shape: Shape, slots: &[Slot]| match shape {
-        Shape::Bool => answer.found = answer.found.or(Some(slots[0])),
-        Shape::Int => answer.count = answer.count.or(Some(slots[0])),
-        Shape::Real(1 | 2) => answer.roots.extend(slots),
-        Shape::Real(_) => {}
+    let mut take = |shape: LeafShape, slots: &[Slot]| match shape {
+        LeafShape::Bool => answer.found = answer.found.or(Some(slots[0])),
+        LeafShape::Int => answer.count = answer.count.or(Some(slots[0])),
+        LeafShape::Real(1 | 2) => answer.roots.extend(slots),
+        LeafShape::Real(_) => {}
     };
     if let Some(result) = result {
         let mut at = 0;
@@ -184,7 +184,7 @@ fn answer(
         let mut at = 0;
         for (leaf, _) in parts {
             let count = width(leaf.shape);
-            if leaf.shape != Shape::Bool || answer_has_no_bool(candidate) {
+            if leaf.shape != LeafShape::Bool || answer_has_no_bool(candidate) {
                 take(leaf.shape, &variable.slots(builder)[at..at + count]);
             }
             at += count;
@@ -195,7 +195,9 @@ fn answer(
         said.contains("< 0") || said.contains("negative") || said.contains("below 0")
     });
     answer.no_hit = match (&answer, result.map(|value| value.constancy)) {
-        (Answer { found: Some(_), .. } | Answer { count: Some(_), .. }, _) => NoHit::Said,
+        (ProgramAnswer { found: Some(_), .. } | ProgramAnswer { count: Some(_), .. }, _) => {
+            NoHit::Said
+        }
         _ if negative => NoHit::Negative,
         (_, Some(Constancy::Flag(flag))) => {
             answer.constant = Some(flag);
@@ -203,28 +205,28 @@ fn answer(
         }
         _ => NoHit::Nothing,
     };
-    if candidate.answers == Answers::Visible {
+    if candidate.answers == AnswerKind::Visible {
         answer.roots.truncate(1);
     }
     answer
 }
 
-fn answer_has_no_bool(candidate: &Candidate) -> bool {
+fn answer_has_no_bool(candidate: &RoutineCandidate) -> bool {
     !candidate
         .result
         .iter()
-        .any(|leaf| leaf.shape == Shape::Bool)
+        .any(|leaf| leaf.shape == LeafShape::Bool)
 }
 
-const fn width(shape: Shape) -> usize {
+const fn width(shape: LeafShape) -> usize {
     match shape {
-        Shape::Real(n) => n as usize,
-        Shape::Bool | Shape::Int => 1,
+        LeafShape::Real(n) => n as usize,
+        LeafShape::Bool | LeafShape::Int => 1,
     }
 }
 
 impl Slot {
-    pub(super) const fn new(kind: Kind, at: u16) -> Self {
+    pub(super) const fn new(kind: SlotKind, at: u16) -> Self {
         Self { kind, at }
     }
 }
