@@ -387,7 +387,7 @@ impl<A: Arithmetic, const N: usize> Runner<A, N> {
             (_, SlotKind::Double) => self.doubles[t] = self.as_f64(from).map(A::Double::of),
             (_, SlotKind::Bool) => self.bools[t] = self.as_f64(from).map(|x| x != 0.0),
             (SlotKind::Int | SlotKind::Uint, SlotKind::Int | SlotKind::Uint) => {
-                self.wholes[t] = self.wholes[f]
+                self.wholes[t] = self.wholes[f];
             }
             (_, SlotKind::Int) => self.wholes[t] = self.as_f64(from).map(|x| x as i32),
             (_, SlotKind::Uint) => self.wholes[t] = self.as_f64(from).map(|x| x as u32 as i32),
