@@ -217,6 +217,25 @@ fn every_panel_has_its_text_form() {
 }
 
 #[test]
+fn lines_of_text_have_the_names_of_the_menu_and_an_empty_one_is_the_next_step() {
+    let lines = "left 3\nright\ntangent\nnext\n\n\nback\nadd\ndelete\ngrow\nsmaller\nundo\n";
+    let script = script(&["tutorial"], lines);
+    for text in [
+        "pixel (17, 20)",
+        "pixel (18, 20)",
+        "step 1 of",
+        "step 3 of",
+        "step 2 of",
+        "undo brings it back",
+        "Taken back: sphere 1 was made smaller.",
+    ] {
+        script.says(text);
+    }
+    assert!(!script.said.contains(". u "), "{}", script.said);
+    assert_eq!(script.status, Some(0));
+}
+
+#[test]
 fn a_line_that_can_not_be_done_gets_a_sentence_and_the_rest_goes_on() {
     let bad = [
         "nonsense",

@@ -46,6 +46,9 @@ impl Student {
                 "enter" => KeyCode::Enter,
                 "esc" => KeyCode::Esc,
                 "up" => KeyCode::Up,
+                "down" => KeyCode::Down,
+                "tab" => KeyCode::Tab,
+                "left" => KeyCode::Left,
                 "right" => KeyCode::Right,
                 key => KeyCode::Char(key.chars().next().expect("a key")),
             };
@@ -125,14 +128,17 @@ fn a_walk_of_the_whole_tour_shows_every_page_whole() {
 #[test]
 fn the_tour_has_the_tutorials_numbers() {
     let on_screen: [((usize, usize), &[&str]); 16] = [
-        ((1, 1), &["y = 1.1x + 0.2", "(8, 9) and (−2, −2)", "r 5"]),
+        (
+            (1, 1),
+            &["y = 1.1x + 0.2", "(8, 9) and (−2, −2)", "x² + y² = 25"],
+        ),
         (
             (1, 2),
             &[
                 "2.21x² + 0.44x − 24.96 = 0",
                 "0.44² − 4·2.21·(−24.96) = 220.84",
                 "x = 3.26 and x = −3.46",
-                "c    3.26, 3.786, 6",
+                "(3.26, 3.786)",
             ],
         ),
         (
@@ -437,4 +443,71 @@ fn on_a_small_screen_a_page_shows_what_it_speaks_of() {
     student.types("tour 3").shows("step 3").shows("3/13");
     student.presses("enter").shows("step 4");
     student.presses("1").shows("view 40×40").shows("3/13");
+}
+
+/// Keys, and what the screen shows after them.
+type Attempt = (&'static str, &'static str);
+
+#[test]
+fn what_a_page_says_to_try_shows_what_it_promises() {
+    let tries: &[(usize, usize, &[Attempt])] = &[
+        (
+            1,
+            1,
+            &[
+                ("up right", "y = 1.2x + 0.3"),
+                ("down down left left left", "y = 0.9x + 0.1"),
+                ("r", "2.21x² + 0.44x − 24.96 = 0"),
+            ],
+        ),
+        (1, 3, &[("", "−3.46"), ("", "3.26")]),
+        (2, 1, &[("N", "t = 1"), ("N", "t = 2")]),
+        (2, 2, &[("n", "sphere 2 of 4"), ("n", "sphere 3 of 4")]),
+        (5, 1, &[("down down", "Δ = 0")]),
+        (
+            5,
+            2,
+            &[("down right right right right t", "touches the sphere")],
+        ),
+        (
+            6,
+            2,
+            &[("right right t", "touches the sphere"), ("v", "outline")],
+        ),
+        (7, 1, &[("n", "blue")]),
+        (
+            7,
+            3,
+            &[
+                ("a d tab", "Sphere 2 of 3"),
+                ("x u", "sphere 2 was moved"),
+                ("g u", "made larger"),
+            ],
+        ),
+        (8, 1, &[("V", "shade")]),
+        (13, 1, &[("m", "machine"), ("M", "exact")]),
+        (13, 3, &[("i", "is added under the cursor")]),
+    ];
+    for &(chapter, page, steps) in tries {
+        let mut student = Student::on_page(chapter, page, SMALL);
+        for (keys, promised) in steps {
+            student.presses(keys).shows(promised);
+        }
+    }
+    // A line that is raised far enough misses the circle.
+    let mut student = Student::on_page(1, 2, SMALL);
+    student.shows("220.84").shows("P₁").shows("3.786");
+    for _ in 0..80 {
+        student.presses("up");
+    }
+    student.shows("below 0: no point in common");
+    // The sphere that the last page has a person add is in the picture.
+    let mut student = Student::on_page(13, 3, SMALL);
+    let before = student.screen();
+    student.presses("i esc");
+    assert_ne!(student.screen(), before);
+    assert_eq!(
+        student.explorer.reading().map(|r| r.meetings[0].body),
+        Some(1)
+    );
 }

@@ -5,7 +5,7 @@ use std::io::{self, IsTerminal as _};
 use clap::{Args, ValueEnum};
 
 use super::{Failure, choice};
-use crate::explorer::{Options, Palette, Reasons};
+use crate::explorer::{Options, Palette, Reasons, Setting};
 use crate::render::{ColorDepth, Style};
 use crate::terminal::Capability;
 use crate::text::Glyphs;
@@ -17,7 +17,7 @@ pub(super) struct Appearance {
     #[command(flatten)]
     color: Color,
 
-    /// The colours for a kind of screen [default: dark, or light where the terminal tells of a light
+    /// The colours for a kind of screen [default: dark, or light where the terminal reports a light
     /// ground]
     #[arg(long, env = "RAYSCOPE_THEME", hide_env_values = true, value_parser = choice(&Palette::ALL, Palette::name))]
     theme: Option<Palette>,
@@ -83,7 +83,16 @@ pub(super) fn is_anybody_present() -> bool {
 impl Appearance {
     /// The options with what this terminal has and the person wants; fails where the terminal has
     /// too little.
-    pub(super) fn fitted(&self, options: Options) -> Result<Options, Failure> {
+    /// What was chosen at an earlier start serves where no flag and no variable says otherwise.
+    pub(super) fn fitted(
+        &self,
+        options: Options,
+        remembered: &[Setting],
+    ) -> Result<Options, Failure> {
+        let theme = remembered.iter().rev().find_map(|setting| match setting {
+            Setting::Theme(palette) => Some(*palette),
+            _ => None,
+        });
         let capability = if self.plain {
             let depth_reason = "lines of text have none";
             Capability {
@@ -106,11 +115,14 @@ impl Appearance {
         }
         if self.theme.is_some() {
             reasons.palette = "--theme or RAYSCOPE_THEME says so";
+        } else if theme.is_some() {
+            reasons.palette = "chosen at an earlier start";
         }
+        let theme = self.theme.or(theme);
         Ok(Options {
             depth: capability.depth,
-            palette: self.theme.unwrap_or(capability.palette),
-            follows_ground: self.theme.is_none(),
+            palette: theme.unwrap_or(capability.palette),
+            follows_ground: theme.is_none(),
             glyphs,
             reasons,
             ..options

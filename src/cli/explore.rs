@@ -12,7 +12,8 @@ use super::appearance::{Appearance, default_style, is_anybody_present};
 use super::place::PlaceFlags;
 use super::{Failure, Outcome, complain};
 use crate::door::{self, Expected};
-use crate::explorer::{Explorer, Options, Setting, Workplace};
+use crate::explorer::{self, Explorer, Options, Setting, Workplace};
+use crate::render::Style;
 use crate::scene::{Builtin, Scene, Source};
 use crate::terminal::{self, Session};
 
@@ -33,23 +34,45 @@ pub(super) struct Explore {
 /// Opens the explorer and ends with the exit status that the person left it with.
 pub(super) fn run(arguments: &Explore) -> Outcome {
     let appearance = &arguments.appearance;
-    let (mut explorer, source) = opened(arguments, |options| appearance.fitted(options))?;
-    explorer.work_in(workplace(), &source);
+    let workplace = workplace();
+    let remembered = remembered(&workplace, appearance);
+    let fit = |options| appearance.fitted(options, &remembered);
+    let (mut explorer, source) = opened(arguments, &remembered, fit)?;
+    explorer.work_in(workplace, &source);
     converse(&mut explorer, appearance)
+}
+
+/// What was chosen at an earlier start; lines of text are the same at every start.
+pub(super) fn remembered(workplace: &Workplace, appearance: &Appearance) -> Vec<Setting> {
+    if appearance.plain {
+        return Vec::new();
+    }
+    explorer::remembered(workplace)
+}
+
+/// What of the remembered settings says how a scene is looked at: a style, where the terminal has what
+/// it needs, and a lens.
+pub(super) fn remembered_view(remembered: &[Setting], usual: Style) -> Vec<Setting> {
+    let suits = |setting: &&Setting| match setting {
+        Setting::Style(_) => usual == Style::Half,
+        Setting::Lens(_) => true,
+        _ => false,
+    };
+    remembered.iter().filter(suits).cloned().collect()
 }
 
 /// The explorer as it is asked for, its options made to `fit` the terminal.
 pub(super) fn opened(
     arguments: &Explore,
+    remembered: &[Setting],
     fit: impl FnOnce(Options) -> Result<Options, Failure>,
 ) -> Result<(Explorer, Source), Failure> {
     let (scene, source) = Scene::open(&arguments.scene).map_err(Failure::invalid)?;
     let options = fit(Options::default())?;
     // What is asked for comes after, and wins.
-    let mut settings = vec![Setting::Style(default_style(
-        options.colors(),
-        options.glyphs,
-    ))];
+    let usual = default_style(options.colors(), options.glyphs);
+    let mut settings = vec![Setting::Style(usual)];
+    settings.extend(remembered_view(remembered, usual));
     settings.extend_from_slice(&arguments.place.settings);
     let explorer = set_out(&settings, || {
         Explorer::new(scene.clone(), &source, options).finding_files_in(workplace())

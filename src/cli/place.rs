@@ -121,7 +121,7 @@ mod tests {
         let all = [&["rayscope".to_owned()], words].concat();
         let arguments = Arguments::try_parse_from(all).map_err(Failure::misused)?;
         let mut explorer = match arguments.command {
-            None => explore::opened(&arguments.explore, Ok)?.0,
+            None => explore::opened(&arguments.explore, &[], Ok)?.0,
             Some(CliCommand::Tour(arguments)) => tour::opened(&arguments, Ok)?,
             Some(other) => panic!("{other:?} opens no explorer"),
         };

@@ -42,7 +42,8 @@ pub(super) fn run(arguments: &TourArgs) -> Outcome {
         return write_out(&list(&chapters(&arguments.chapter)?.0));
     }
     let appearance = &arguments.appearance;
-    let mut explorer = opened(arguments, |options| appearance.fitted(options))?;
+    let remembered = explore::remembered(&explore::workplace(), appearance);
+    let mut explorer = opened(arguments, |options| appearance.fitted(options, &remembered))?;
     explore::converse(&mut explorer, appearance)
 }
 

@@ -26,7 +26,10 @@ use crate::scene::{Body, Scene};
 pub use acne::acne_words;
 pub use compare::{comparison, measured_bits};
 pub use derivation::{Drawn, Step, StepQuestion, derivation};
-pub use figure::{FigureInk, Float, Landmark, bits, curve, landmarks, slice, turning, work};
+pub use figure::{
+    FigureInk, Float, Landmark, PlaneLine, bits, curve, landmarks, plane, plane_lines, slice,
+    turning, work,
+};
 pub use lens::Lens;
 pub use number::{Digits, number, vector};
 pub use panel::{Line, Role, Span, fit, lines, plain_text};

@@ -14,6 +14,10 @@ const FAR: i64 = 8;
 
 /// Does an action of the cursor's; false if it is another's.
 pub(crate) fn act(action: Action, state: &mut State) -> bool {
+    if let (Some(line), Some((turn, raise))) = (state.plane, moves_line(action)) {
+        state.plane = Some(line.moved(turn, raise));
+        return true;
+    }
     match action {
         Action::CursorLeft => move_cursor(state, -1, 0),
         Action::CursorRight => move_cursor(state, 1, 0),
@@ -32,6 +36,21 @@ pub(crate) fn act(action: Action, state: &mut State) -> bool {
         _ => return false,
     }
     true
+}
+
+/// By how much an action turns and raises the line that is drawn in the picture's place, in tenths.
+const fn moves_line(action: Action) -> Option<(i64, i64)> {
+    Some(match action {
+        Action::CursorLeft => (-1, 0),
+        Action::CursorRight => (1, 0),
+        Action::CursorUp => (0, 1),
+        Action::CursorDown => (0, -1),
+        Action::CursorFarLeft => (-10, 0),
+        Action::CursorFarRight => (10, 0),
+        Action::CursorFarUp => (0, 10),
+        Action::CursorFarDown => (0, -10),
+        _ => return None,
+    })
 }
 
 fn move_cursor(state: &mut State, right: i64, down: i64) {
@@ -86,15 +105,16 @@ fn go_to_probe(state: &mut State, forward: bool) {
     match pixel.filter(|&(x, y)| x < size.width && y < size.height) {
         Some((x, y)) => {
             put_cursor(state, x, y);
-            state.say(format!(
-                "{}/{count}  {}: {}",
-                at + 1,
-                probe.title,
-                probe.text
-            ));
+            // What the author says holds for the scene as it was opened.
+            let text = if state.is_another_scene() {
+                String::new()
+            } else {
+                format!(": {}", probe.text)
+            };
+            state.say(format!("{}/{count}  {}{text}", at + 1, probe.title));
         }
         None => state.warn(format!(
-            "{}/{count}  {}: out of the picture. 0 takes the camera home.",
+            "{}/{count}  {}: out of the picture. {{home}} takes the camera home.",
             at + 1,
             probe.title
         )),

@@ -72,13 +72,15 @@ impl Confirmation {
             Self::Open(name) => {
                 format!("Unsaved changes.  o open {name} without saving   esc stay")
             }
-            Self::Go(_) => "Unsaved changes.  o open the pasted view without saving   esc stay".into(),
+            Self::Go(_) => {
+                "Unsaved changes.  o open the pasted view without saving   esc stay".into()
+            }
             Self::Recover { age, .. } => format!(
                 "Unsaved work of {} ago was kept.  o open it   D delete it   esc later",
                 in_words(*age)
             ),
             Self::Tour => {
-                "Unsaved changes.  s save   t start the tour: your scene waits, ctrl-t comes back   esc stay".into()
+                "Unsaved changes.  s save   t start the tour: your scene waits   esc stay".into()
             }
             Self::Overwrite { path, why } => {
                 format!("{} {why}.  o overwrite   esc keep it", path.display())

@@ -127,7 +127,7 @@ fn numbers_since(state: &State, base: &Scene) -> Result<Vec<String>, String> {
 
 /// Why a view can't be passed on.
 const SAVE_FIRST: &str =
-    "This scene has changes that a command can't carry: save it (ctrl-s), then pass it on.";
+    "This scene has changes that a command can't carry: save it ({save}), then pass it on.";
 
 /// A file's name that is taken for nothing else.
 pub(crate) fn as_file(name: &str) -> String {

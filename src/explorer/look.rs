@@ -4,6 +4,7 @@ use crate::explain::Lens;
 use crate::explorer::action::Action;
 use crate::explorer::draw::theme::Palette;
 use crate::explorer::options::Request;
+use crate::explorer::setting::Setting;
 use crate::explorer::state::{State, turn};
 use crate::method::Method;
 use crate::render::{ColorDepth, Style, View};
@@ -16,7 +17,7 @@ pub(crate) fn act(action: Action, state: &mut State) -> bool {
     match action {
         Action::NextMethod => turn_method(state, 1),
         Action::PreviousMethod => turn_method(state, state.methods().len() - 1),
-        Action::OtherLens => state.at.lens = state.at.lens.other(),
+        Action::OtherLens => set_lens(state, state.at.lens.other()),
         Action::NextView => turn_view(state, 1),
         Action::PreviousView => turn_view(state, View::ALL.len() - 1),
         Action::NextStyle => turn_style(state, 1),
@@ -39,7 +40,7 @@ pub(crate) fn act(action: Action, state: &mut State) -> bool {
 fn toggle_mouse(state: &mut State) {
     state.mouse = !state.mouse;
     state.say(if state.mouse {
-        "The mouse: a click moves the cursor, the wheel zooms. $ gives it back."
+        "The mouse: a click moves the cursor, the wheel zooms. {mouse} gives it back."
     } else {
         "The mouse selects text again."
     });
@@ -64,7 +65,13 @@ fn turn_style(state: &mut State, by: usize) {
 
 pub(crate) fn set_style(state: &mut State, style: Style) {
     state.at.style = style;
+    state.chosen.push(Setting::Style(style));
     say_legend(state);
+}
+
+pub(crate) fn set_lens(state: &mut State, lens: Lens) {
+    state.at.lens = lens;
+    state.chosen.push(Setting::Lens(lens));
 }
 
 pub(crate) fn set_view(state: &mut State, view: View) {
@@ -88,6 +95,7 @@ pub(crate) fn set_ground(state: &mut State, is_light: bool) -> bool {
 
 pub(crate) fn set_palette(state: &mut State, palette: Palette) {
     state.options.palette = palette;
+    state.chosen.push(Setting::Theme(palette));
     state.options.reasons.palette = CHOSEN_HERE;
     state.options.follows_ground = false;
     state.say(format!("Theme: {}, {}.", palette.name(), palette.words()));
@@ -97,7 +105,7 @@ pub(crate) fn set_depth(state: &mut State, depth: ColorDepth) {
     state.options.depth = depth;
     state.options.reasons.depth = CHOSEN_HERE;
     let unused = match state.options.palette {
-        Palette::Monochrome => "; the theme monochrome uses none, @ changes it",
+        Palette::Monochrome => "; the theme monochrome uses none, {next-theme} changes it",
         _ => "",
     };
     state.say(format!("Colours: {}{unused}.", depth.words()));

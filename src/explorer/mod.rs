@@ -38,6 +38,7 @@ pub use draw::layout::screen_for;
 pub use draw::svg::svg;
 pub use draw::theme::Palette;
 pub use edit::motion::usual_step;
+pub use files::remembered::remembered;
 pub use files::workplace::Workplace;
 pub use link::command_line;
 pub use options::{Options, Reasons, Request};

@@ -89,7 +89,11 @@ impl Explorer {
 
     /// Does what a line says, and tells what that changed.
     pub fn run_line(&mut self, line: &str) -> Reply {
-        let line = line.trim();
+        self.state.names_actions = true;
+        let line = match line.trim() {
+            "" if !self.is_asking() => Action::NextStep.name(),
+            line => line,
+        };
         if line.is_empty() || line.starts_with('#') {
             return Reply::default();
         }

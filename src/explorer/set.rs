@@ -21,7 +21,7 @@ pub(crate) fn set(state: &mut State, setting: Setting) {
             Err(sentence) => state.warn(sentence),
         },
         Setting::Method(method) => look::set_method(state, method),
-        Setting::Lens(lens) => state.at.lens = lens,
+        Setting::Lens(lens) => look::set_lens(state, lens),
         Setting::Style(style) => look::set_style(state, style),
         Setting::View(view) => look::set_view(state, view),
         Setting::Theme(palette) => look::set_palette(state, palette),

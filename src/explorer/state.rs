@@ -3,7 +3,8 @@
 //!
 //! A part changes it by what it does to a `&mut State`; what only one part needs is that part's own.
 
-use crate::explain::{Digits, Reading, Step, Subject};
+use crate::explain::{Digits, PlaneLine, Reading, Step, Subject};
+use crate::explorer::action::Action;
 use crate::explorer::arrival::Arrival;
 use crate::explorer::dialog::{Confirmation, Dialog, Message};
 use crate::explorer::draw::layout::Layout;
@@ -16,6 +17,7 @@ use crate::explorer::files::workplace::Workplace;
 use crate::explorer::options::{Options, Request};
 use crate::explorer::own_routine::OwnRoutine;
 use crate::explorer::panel::Panel;
+use crate::explorer::setting::Setting;
 use crate::explorer::viewpoint::Viewpoint;
 use crate::method::Method;
 use crate::render::View;
@@ -46,7 +48,13 @@ pub(crate) struct State {
     pub(crate) prediction: Prediction,
     /// One step is shown large, in the place of picture and panels.
     pub(crate) board: bool,
+    /// The line across a circle that is drawn in the picture's place, on a page of the tour.
+    pub(crate) plane: Option<PlaneLine>,
     pub(crate) message: Option<Message>,
+    /// What was chosen for the next start, too.
+    pub(crate) chosen: Vec<Setting>,
+    /// Whether sentences name actions, not keys: there is no screen.
+    pub(crate) names_actions: bool,
     /// What is to open over the screen.
     pub(crate) dialog: Option<Dialog>,
     /// Columns and rows of the screen.
@@ -134,7 +142,10 @@ impl State {
             kept_step: None,
             prediction: Prediction::default(),
             board: false,
+            plane: None,
             message: None,
+            chosen: Vec::new(),
+            names_actions: false,
             dialog: None,
             screen: (0, 0),
             layout: None,
@@ -185,16 +196,35 @@ impl State {
         self.work.document.apply(change)
     }
 
+    /// A sentence with each `{action}` in it put as its key, or by its name where there are no keys.
+    fn spelt(&self, text: &str) -> String {
+        let mut pieces = text.split('{');
+        let mut spelt = pieces.next().unwrap_or_default().to_owned();
+        for piece in pieces {
+            let action = piece.split_once('}');
+            let action = action.and_then(|(name, rest)| Some((Action::by_name(name)?, rest)));
+            if let Some((action, rest)) = action {
+                let key = action.keys().first().filter(|_| !self.names_actions);
+                spelt += key.copied().unwrap_or_else(|| action.name());
+                spelt += rest;
+            } else {
+                spelt.push('{');
+                spelt += piece;
+            }
+        }
+        spelt
+    }
+
     pub(crate) fn say(&mut self, text: impl Into<String>) {
         self.message = Some(Message {
-            text: text.into(),
+            text: self.spelt(&text.into()),
             warning: false,
         });
     }
 
     pub(crate) fn warn(&mut self, text: impl Into<String>) {
         self.message = Some(Message {
-            text: text.into(),
+            text: self.spelt(&text.into()),
             warning: true,
         });
     }
@@ -230,6 +260,12 @@ impl State {
         let built_in = matches!(place, FilePlace::Builtin(_)) && self.aside.is_none();
         let only_looked = built_in && document.ground().bodies == opened.bodies;
         self.is_changed() && !only_looked
+    }
+
+    /// Whether the scene has other spheres or another camera than when it was opened.
+    pub(crate) fn is_another_scene(&self) -> bool {
+        let (now, opened) = (self.scene(), &self.work.opened);
+        now.bodies != opened.bodies || now.camera != opened.camera
     }
 
     // The derivation.

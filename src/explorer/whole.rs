@@ -21,7 +21,7 @@ use crate::explorer::edit::{camera, history, spheres};
 use crate::explorer::files::disk::Over;
 use crate::explorer::files::place::FilePlace;
 use crate::explorer::files::workplace::Workplace;
-use crate::explorer::files::{keep, saving};
+use crate::explorer::files::{keep, remembered, saving};
 use crate::explorer::key::Key;
 use crate::explorer::link::{self, Link, LinkPlace};
 use crate::explorer::mode::overlay::After;
@@ -308,6 +308,7 @@ impl Explorer {
     /// the person has not given up.
     pub fn finish(&mut self) -> Result<Option<PathBuf>, String> {
         self.tour.leave(&mut self.state);
+        remembered::remember(&self.state.workplace, &self.state.chosen);
         keep::finish(&mut self.state)
     }
 }

@@ -139,7 +139,7 @@ impl Environment {
         if term.starts_with("vt") {
             return (ColorDepth::None, "TERM is a terminal without colours");
         }
-        (ColorDepth::Ansi16, "nothing tells of more")
+        (ColorDepth::Ansi16, "no sign of more colours")
     }
 
     fn glyphs(&self) -> (Glyphs, &'static str) {
@@ -161,8 +161,8 @@ impl Environment {
             .as_deref()
             .and_then(|v| v.rsplit(';').next());
         match ground {
-            Some("7" | "15") => (Palette::Light, "COLORFGBG tells of a light ground"),
-            Some(_) => (Palette::Dark, "COLORFGBG tells of a dark ground"),
+            Some("7" | "15") => (Palette::Light, "COLORFGBG says the ground is light"),
+            Some(_) => (Palette::Dark, "COLORFGBG says the ground is dark"),
             None => (Palette::Either, "the ground is not known yet"),
         }
     }

@@ -41,6 +41,67 @@ fn a_person_opens_moves_reads_saves_and_quits() {
 }
 
 #[test]
+fn a_student_has_a_first_lesson() {
+    let mut pty = Pty::explorer(Start::default());
+    pty.waits_to_show("opening");
+    assert_eq!(pty.value("Δ"), "400");
+    // The slide of the first camera key is seen, and taken back.
+    pty.sends("d");
+    pty.waits_for("another start", |p| p.text().contains("24,"));
+    pty.sends("u");
+    pty.waits_to_show("the camera was moved");
+    pty.sends("\r");
+    pty.waits_to_show("step 1 of");
+    pty.sends(">");
+    pty.waits_for("the last step", |p| {
+        let text = p.text();
+        let title = text.split("step ").nth(1).unwrap_or_default();
+        let mut words = title.split([' ', ':']);
+        let (at, of) = (words.next(), words.nth(1));
+        at == of && at.is_some()
+    });
+    pty.sends(",");
+    pty.waits_for("the step before", |p| !p.text().contains("[glyph]"));
+    pty.sends(" ");
+    pty.waits_to_show("n Numerics");
+    pty.sends("et");
+    pty.waits_to_show("put the tour away");
+    pty.sends("\r");
+    pty.waits_to_show("1/13: ");
+    pty.sends("f");
+    pty.waits_to_show("220.84");
+    pty.sends("q");
+    assert_eq!(pty.ends(), 0);
+    pty.is_restored();
+}
+
+#[test]
+fn theme_style_and_lens_are_there_again_at_the_next_start() {
+    let mut pty = Pty::explorer(Start::default().args(&["trio"]));
+    pty.sends("L:style ascii\r:theme monochrome\r");
+    pty.waits_to_show("Theme: monochrome");
+    let home = pty.home();
+    pty.sends("q");
+    assert_eq!(pty.ends(), 0);
+    let mut pty = Pty::explorer(Start::default().args(&["far"]).home(&home));
+    for word in [" machine ", " ascii "] {
+        pty.waits_to_show(word);
+    }
+    pty.sends("q");
+    assert_eq!(pty.ends(), 0);
+    assert!(!pty.sets_colors());
+    let start = Start::default().args(&["far", "--style", "half", "--lens", "mathematics"]);
+    let start = start.env("RAYSCOPE_THEME", "dark").home(&home);
+    let mut pty = Pty::explorer(start);
+    for word in [" mathematics ", " half "] {
+        pty.waits_to_show(word);
+    }
+    pty.sends("q");
+    assert_eq!(pty.ends(), 0);
+    assert!(pty.sets_colors());
+}
+
+#[test]
 fn a_person_walks_the_whole_tour() {
     let chapters = rayscope::explorer::tour::builtin();
     let mut pty = Pty::explorer(Start::default().args(&["tour"]));

@@ -100,7 +100,7 @@ impl<const N: usize> CsvColumns<N> {
                 }
                 (None, _) if header.bare_text().contains(&b'\r') => {
                     return Err(
-                        ": a carriage return stands inside; expected each line to end in a newline"
+                        ": found a carriage return inside, expected each line to end in a newline"
                             .to_owned(),
                     );
                 }

@@ -14,6 +14,7 @@ mod cases;
 mod curve;
 mod landmark;
 mod mark;
+mod plane;
 mod section;
 mod slice;
 #[cfg(test)]
@@ -26,6 +27,7 @@ pub use bits::{Float, bits};
 pub use canvas::FigureInk;
 pub use curve::curve;
 pub use landmark::{Landmark, landmarks};
+pub use plane::{PlaneLine, plane, plane_lines};
 pub use slice::slice;
 pub use turning::turning;
 pub use work::work;

@@ -17,6 +17,12 @@ pub(crate) fn draw_alone(state: &State, panels: &Panels, pen: &mut Pen<'_>, area
 
 /// All panels that have room.
 pub(crate) fn draw(state: &State, panels: &Panels, pen: &mut Pen<'_>, side: Rect) {
+    if side.is_empty() {
+        return;
+    }
+    if state.plane.is_some() {
+        return draw_panel(state, panels, pen, state.at.panel, side);
+    }
     for (panel, area) in Panel::tiles(side, state.at.panel) {
         draw_panel(state, panels, pen, panel, area);
     }

@@ -31,6 +31,13 @@ pub(crate) fn draw(
     pen: &mut Pen<'_>,
     area: Rect,
 ) -> Option<Position> {
+    if let Some(line) = state.plane {
+        pen.frame(area, "circle and line", "arrows raise and turn the line");
+        let room = layout::inner(area);
+        let (cols, rows) = (room.width.into(), room.height.into());
+        pen.lines(room, &explain::plane(line, cols, rows, pen.glyphs));
+        return None;
+    }
     let size = state.size();
     let step = number(
         state.work.stride.into(),
@@ -209,6 +216,10 @@ fn is_dark(color: Option<Rgb>) -> bool {
 
 /// A, B, C, Δ and what is seen, in one line.
 pub(crate) fn draw_strip(state: &State, pen: &mut Pen<'_>, area: Rect) {
+    if let Some(line) = state.plane {
+        let equation = explain::plane_lines(line).swap_remove(5);
+        return pen.lines(area, &[equation]);
+    }
     let (Some(subject), false) = (state.subject(), area.is_empty()) else {
         return;
     };

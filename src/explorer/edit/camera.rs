@@ -45,7 +45,7 @@ fn look_at_sphere(state: &mut State) {
             let center = body.sphere.center;
             let camera = motion::look_at(&state.scene().camera, center);
             if !state.apply(Change::Camera(camera)) {
-                state.say("The camera looks at it, or stands at its centre.");
+                state.say("The camera looks at it already, or is at its centre.");
             }
         }
         None => state.say("No sphere is selected."),

@@ -230,6 +230,12 @@ impl Document {
         self.saved_at = Some(self.past.len());
     }
 
+    /// Takes over what is said of the scene, its name and its places: no change that can be undone.
+    pub fn retitle(&mut self, said: Scene) {
+        (self.scene.name, self.scene.about, self.scene.probes) =
+            (said.name, said.about, said.probes);
+    }
+
     /// Applies a change that [`Document::undo`] takes back; false if it changes nothing.
     pub fn apply(&mut self, change: Change) -> bool {
         self.apply_keeping(change, Inverse::Small)

@@ -39,7 +39,7 @@ fn travel(state: &mut State, go: fn(&mut Document) -> bool, deed: Option<String>
 fn reset(state: &mut State) {
     let opened = Box::new(state.work.opened.clone());
     if state.apply(Change::Scene(opened)) {
-        state.say("The scene is as it was opened. u takes this back.");
+        state.say("The scene is as it was opened. {undo} takes this back.");
     }
     spheres::mend_selection(state);
 }

@@ -55,7 +55,7 @@ pub(crate) fn select(state: &mut State, at: usize) {
 fn select_neighbour(state: &mut State, by: isize) {
     let count = state.scene().bodies.len() as isize;
     if count == 0 {
-        return state.say("The scene has no spheres. i adds one.");
+        return state.say("The scene has no spheres. {add} adds one.");
     }
     let at = match state.at.sphere {
         Some(at) => (at as isize + by).rem_euclid(count),
@@ -118,7 +118,7 @@ fn reshape(state: &mut State, at: usize, body: Body, center: Vec3, radius: f32) 
         Ok(sphere) => {
             if !state.apply(Change::Replace(at, Body { sphere, ..body })) {
                 state.say(format!(
-                    "A step of {} is lost in rounding here. ] makes steps coarser.",
+                    "A step of {} is lost in rounding here. {{coarser}} makes steps longer.",
                     state.work.stride
                 ));
             }
@@ -219,7 +219,10 @@ fn delete_sphere(state: &mut State) {
         state.apply(Change::Remove(at));
         state.at.shown = None;
         mend_selection(state);
-        state.say(format!("Sphere {} is deleted. u brings it back.", at + 1));
+        state.say(format!(
+            "Sphere {} is deleted. {{undo}} brings it back.",
+            at + 1
+        ));
     }
 }
 

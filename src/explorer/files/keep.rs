@@ -191,7 +191,8 @@ pub(crate) fn recover(state: &mut State, path: &Path) {
             if let Some(rescue) = &mut state.rescue {
                 rescue.taken = rescue.offered.take();
             }
-            state.say("This is what was not saved. u goes back to the scene as it was opened.");
+            state
+                .say("This is what was not saved. {undo} goes back to the scene as it was opened.");
         }
         Err(e) => state.warn(e.to_string()),
     }
@@ -201,7 +202,7 @@ pub(crate) fn recover(state: &mut State, path: &Path) {
 pub(crate) fn discard(state: &mut State) {
     if let Some(rescue) = &mut state.rescue {
         rescue.discarded.extend(rescue.offered.take());
-        state.say("It is deleted when you leave. Until then u brings it back.");
+        state.say("It is deleted when you leave. Until then {undo} brings it back.");
     }
 }
 

@@ -4,6 +4,7 @@ pub(crate) mod disk;
 pub(crate) mod keep;
 pub(crate) mod kept;
 pub(crate) mod place;
+pub(crate) mod remembered;
 pub(crate) mod rescue;
 pub(crate) mod saving;
 pub(crate) mod workplace;

@@ -57,6 +57,10 @@ pub(crate) fn replace(state: &mut State, scene: Scene, source: &Source) {
     state.at.method = before.at.method;
     state.at.style = before.at.style;
     state.at.view = before.at.view;
+    state.at.lens = before.at.lens;
+    state.mouse = before.mouse;
+    state.chosen = before.chosen;
+    state.names_actions = before.names_actions;
     state.workplace = before.workplace;
     keep::keep_on(state, before.rescue, source);
     let about = state.scene().about.clone().unwrap_or_default();
@@ -103,9 +107,36 @@ pub(crate) fn save_as(state: &mut State, path: &Path) {
     }
 }
 
+/// The scene as it is saved in that file: it takes the file's name unless it has one of its own, and
+/// of a built-in scene that was changed it tells nothing that speaks of the numbers as they were.
+fn as_saved(state: &State, path: &Path) -> Scene {
+    let mut scene = state.scene().clone();
+    let stem = |path: &Path| {
+        path.file_stem()
+            .map(|stem| stem.to_string_lossy().into_owned())
+    };
+    let is_builtin = matches!(state.work.place, FilePlace::Builtin(_));
+    let given = match &state.work.place {
+        FilePlace::Builtin(builtin) => Some(builtin.name().to_owned()),
+        FilePlace::File(stamp) => stem(stamp.path()),
+        FilePlace::None => None,
+    };
+    if let Some(own) = stem(path).filter(|_| given.as_ref() == Some(&scene.name)) {
+        scene.name = own.replace(char::is_control, "");
+    }
+    if is_builtin && state.is_another_scene() {
+        let has_numbers = |text: &str| text.contains(|c: char| c.is_ascii_digit());
+        scene.about = scene.about.filter(|about| !has_numbers(about));
+        scene.probes.retain(|probe| !has_numbers(&probe.text));
+    }
+    scene
+}
+
 pub(crate) fn write(state: &mut State, path: &Path, over: Over<'_>) {
-    match disk::save(path, &state.scene().to_toml(), over) {
+    let scene = as_saved(state, path);
+    match disk::save(path, &scene.to_toml(), over) {
         Ok(stamp) => {
+            state.work.document.retitle(scene);
             state.work.place = FilePlace::File(stamp);
             state.work.document.mark_saved();
             keep::saved_as(state, path);

@@ -58,6 +58,16 @@ impl Workplace {
         self.state.is_some() || !self.is_confined
     }
 
+    /// What is remembered for the next start, if there is a place: for each person who shares an
+    /// account by a name of their own.
+    pub(crate) fn settings_file(&self) -> Option<PathBuf> {
+        let folder = self.state.as_ref()?;
+        let letters = self.person.chars().filter(char::is_ascii_alphanumeric);
+        let letters: Vec<char> = letters.collect();
+        let own: String = letters[letters.len().saturating_sub(16)..].iter().collect();
+        Some(folder.join(format!("settings{own}")))
+    }
+
     /// Where it is kept, if there is a place.
     pub(crate) fn kept_folder(&self) -> Option<KeptFolder> {
         self.state.clone().map(|folder| KeptFolder {

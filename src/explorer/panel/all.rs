@@ -2,7 +2,7 @@
 
 use ratatui::layout::Rect;
 
-use crate::explain::Line;
+use crate::explain::{self, Line};
 use crate::explorer::action::Action;
 use crate::explorer::panel::component::Component;
 use crate::explorer::panel::{
@@ -58,6 +58,9 @@ impl Panels {
         room: Rect,
     ) -> Option<(String, Vec<Line>)> {
         state.reading()?;
+        if let (Some(line), Panel::Quadratic) = (state.plane, panel) {
+            return Some(("the line in the circle".into(), explain::plane_lines(line)));
+        }
         let component = self.get(panel);
         if component.is_answer() && state.is_predicting() {
             let lines = text::wrap(VEILED, room.width.into()).into_iter();

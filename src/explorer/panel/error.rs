@@ -188,7 +188,7 @@ const NOTHING_YET: &str = "Press % to time all methods on the questions that thi
 /// A refusal as a sentence.
 fn in_words(refusal: &NoChart) -> String {
     match refusal {
-        NoChart::Cancelled => "The measurement was stopped. % begins anew.".into(),
+        NoChart::Cancelled => "The measurement was stopped. % starts it again.".into(),
         NoChart::Empty => "The scene has no spheres: there is nothing to ask.".into(),
         NoChart::Failed(reason) => format!("Nothing could be measured: {reason}. % tries again."),
     }
@@ -200,7 +200,7 @@ impl Chart {
         let mut remarks = Vec::new();
         if self.is_stale {
             let stale =
-                "STALE: the picture was another one when this was measured. % measures anew.";
+                "STALE: the picture was another one when this was measured. % measures again.";
             remarks.push((Role::Warning, stale.into()));
         }
         let complaints = self.report.complaints();

@@ -14,6 +14,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use crate::door::{Expected, FileError, TextPosition};
+use crate::explain::PlaneLine;
 use crate::explorer::arrival::Target;
 use crate::explorer::edit::field;
 use crate::explorer::setting::{self, Setting, SettingRow};
@@ -59,6 +60,8 @@ pub(crate) struct Setup {
     pub(crate) step: Option<String>,
     pub(crate) predict: bool,
     pub(crate) board: bool,
+    /// The line that is drawn with a circle in the picture's place.
+    pub(crate) plane: Option<PlaneLine>,
 }
 
 /// The chapters that come with the program, in their order.
@@ -215,7 +218,7 @@ struct ChapterFile {
 }
 
 /// What a page may say. What it leaves out stays as on the page before, but for `step`, `t`,
-/// `predict` and `board`.
+/// `predict`, `board` and `plane`.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct PageFile {
@@ -241,6 +244,8 @@ struct PageFile {
     predict: bool,
     #[serde(default)]
     board: bool,
+    #[serde(default)]
+    plane: bool,
 }
 
 /// What is wrong with a page, and at which byte of the file.
@@ -292,6 +297,7 @@ impl PageFile {
             }
         };
         (setup.predict, setup.board) = (self.predict, self.board);
+        setup.plane = self.plane.then_some(PlaneLine::TUTORIAL);
         if let Some(number) = &self.sphere {
             let count = setup.scene.bodies.len();
             let at = number.get_ref().wrapping_sub(1);
@@ -384,6 +390,7 @@ impl Setup {
             step: None,
             predict: false,
             board: false,
+            plane: None,
         }
     }
 

@@ -164,7 +164,7 @@ impl Tour {
     fn toggle(&mut self, state: &mut State) {
         if self.open.is_some() {
             self.leave(state);
-            state.say("Your own scene is back. ctrl-t returns to the tour.");
+            state.say("Your own scene is back. {tour} returns to the tour.");
         } else {
             self.visit(state, self.bookmark());
         }
@@ -182,7 +182,7 @@ impl Tour {
         }
         match tour.at.next() {
             Some(at) => self.turn_to(state, at),
-            None => state.say("This was the last page. ctrl-t brings your own scene back."),
+            None => state.say("This was the last page. {tour} brings your own scene back."),
         }
     }
 
@@ -299,7 +299,7 @@ impl Tour {
             }
             (tour.at, tour.scroll) = (at, 0);
             if state.work.document.is_changed() {
-                state.say("u brings back what you changed on the page before.");
+                state.say("{undo} brings back what you changed on the page before.");
             }
         } else {
             put_work_aside(state, &scene);
@@ -333,6 +333,7 @@ impl Tour {
             ..Prediction::default()
         };
         state.board = setup.board;
+        state.plane = setup.plane;
         state.arrival = Arrival {
             target: Some(setup.target),
             step: setup.step,
@@ -341,6 +342,7 @@ impl Tour {
 
     /// Puts the tour away and the person's own work back as it was.
     pub(crate) fn leave(&mut self, state: &mut State) {
+        state.plane = None;
         let (Some(tour), Some(aside)) = (self.open.take(), state.aside.take()) else {
             return;
         };
