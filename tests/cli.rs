@@ -115,7 +115,7 @@ fn a_variable_stands_for_its_flag_and_gives_way_to_it() {
         command.env(variable.0, variable.1);
         String::from_utf8(output(command, "").stdout).unwrap()
     };
-    let method = ["print", "tutorial", "--pixel", "20,20"];
+    let method = ["print", "tutorial", "--pixel", "20,20", "--lens", "machine"];
     assert!(said(("RAYSCOPE_METHOD", "kahan"), &method).contains("method kahan"));
     assert!(said(("RAYSCOPE_METHOD", ""), &method).contains("method exact"));
     let both = [&method[..], &["--method", "haines"]].concat();
@@ -182,7 +182,7 @@ fn a_script_explores_and_is_told_what_changed() {
     script.says("A 1; B −40; C 300; Δ 400; near 10; far 30");
     script.says("\npixel (23, 20); C 309; Δ 364; near 10.4606; far 29.5394;");
     script.says("\nmethod contracted");
-    script.says("C    |p0−c|² − r²   309");
+    script.says("C    |p0−c|² − r²   →  309");
     assert!(!script.said.contains("never"));
     assert!(!script.said.contains("\n> "), "a prompt in a pipe");
     assert_eq!((script.status, script.complained.as_str()), (Some(0), ""));

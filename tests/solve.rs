@@ -309,13 +309,14 @@ fn one_intersection_is_worked_out_as_in_the_tutorial() {
     let run = solve(&[&TUTORIAL[..], &["--method", "textbook"]].concat(), "");
     assert_eq!((run.status, run.err.as_str()), (0, ""));
     for line in [
-        "A = d·d\n  = 0² + 0² + 1²\n  = 1\n",
-        "  = 2·(0·0 + 0·0 + 1·(−20))\n  = −40\n",
-        "C = |o|² − r²\n  = 400 − 100\n  = 300\n",
-        "Δ = B² − 4AC\n  = 1600 − 1200\n  = 400\n",
+        "A = d·d\n    0² + 0² + 1² → 1\n",
+        "    2·(0·0 + 0·0 + 1·(−20)) → −40\n",
+        "C = |o|² − r²\n    400 − 100 → 300\n",
+        "    float c = oo - rr;\n",
+        "Δ = B² − 4AC\n    1600 − 1200 → 400\n",
         "secant  Δ > 0: the line crosses the sphere in two points\n",
-        "near = 10, exactly\nfar = 30, exactly\n",
-        "hit: the ray sees it at t = 10\n",
+        "near → 10, exactly\nfar → 30, exactly\n",
+        "hit: the ray sees it at t 10\n",
     ] {
         assert!(run.out.contains(line), "{line} is not in {}", run.out);
     }
@@ -379,7 +380,10 @@ fn json_has_the_answer_the_coefficients_and_the_steps() {
 fn negative_numbers_need_no_equals_sign() {
     let run = solve(&["--ray", "-3,0,0,1,0,0", "--sphere", "-0,0,0,1"], "");
     assert_eq!(run.status, 0, "{}", run.err);
-    assert!(run.out.contains("near = 2"));
+    assert!(
+        run.out
+            .contains("near = (−B − √Δ) / 2A = (6 − √4) / (2·1) = 2")
+    );
 }
 
 #[test]

@@ -9,6 +9,7 @@ mod explore;
 mod failure;
 mod grade;
 mod harness;
+mod lens;
 mod output;
 mod place;
 mod plan;

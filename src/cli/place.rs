@@ -114,7 +114,6 @@ mod tests {
     use super::super::{Arguments, CliCommand, Failure, explore, tour};
     use crate::explain::{Digits, lines, plain_text};
     use crate::explorer::{Explorer, Viewpoint, command_line};
-    use crate::text::Glyphs;
 
     /// Opens what a command line asks for, on a screen of 80 by 24.
     fn open(words: &[String]) -> Result<Explorer, Failure> {
@@ -148,20 +147,22 @@ mod tests {
     /// What a person sees of an explorer, but for the message.
     fn seen(explorer: &Explorer) -> String {
         let lines = lines(
+            explorer.viewpoint().lens,
             explorer.reading().unwrap(),
             80,
             Digits::Full,
-            Glyphs::Unicode,
+            crate::text::Glyphs::Unicode,
         );
         let scene = explorer.scene().to_toml();
         let Viewpoint {
             method,
+            lens,
             style,
             view,
             ..
         } = explorer.viewpoint();
         let aspect = explorer.options().aspect;
-        let looks = format!("{method} {style:?} {view:?} {aspect}");
+        let looks = format!("{method} {lens:?} {style:?} {view:?} {aspect}");
         format!("{}{looks}\n{scene}", plain_text(&lines))
     }
 
@@ -249,11 +250,11 @@ mod tests {
             ),
             (
                 "tutorial --step 99",
-                "--step: found “99”, expected a step's name or 1 to 23",
+                "--step: found “99”, expected a step's name or 1 to 10",
             ),
             (
                 "tour 4 --step none",
-                "--step: found “none”, expected a step's name or 1 to 23",
+                "--step: found “none”, expected a step's name or 1 to 10",
             ),
             ("tour 1 --page 9", "--page 9: expected a page from 1 to 4"),
         ] {

@@ -10,9 +10,10 @@ use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
 
 use super::appearance::{Color, ColorChoice, default_style};
+use super::lens::LensFlag;
 use super::progress::Progress;
 use super::{Failure, MethodName, Outcome, aspect, choice, method_name, write_out, write_picture};
-use crate::explain::{self, Digits, Drawn, Reading};
+use crate::explain::{self, Digits, Drawn, Lens, Reading};
 use crate::explorer::{self, Explorer, Options, Palette, Panel, Setting};
 use crate::method::Method;
 use crate::render::{
@@ -42,6 +43,10 @@ pub(super) struct Print {
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<Size>,
 
+    // Before the method: it looks at whether that was given.
+    #[command(flatten)]
+    lens: LensFlag,
+
     /// How the quadratic is evaluated
     #[arg(long, env = "RAYSCOPE_METHOD", hide_env_values = true, value_parser = method_name(), default_value = Method::default().name())]
     method: MethodName,
@@ -69,6 +74,13 @@ pub(super) struct Print {
     /// The whole derivation of that pixel, step by step
     #[arg(long, requires = "pixel")]
     steps: bool,
+}
+
+impl Print {
+    /// Through which lens the pixel is looked at.
+    fn lens(&self) -> Lens {
+        self.lens.chosen()
+    }
 }
 
 /// Draws the scene, or reads one pixel of it, and ends with the exit status.
@@ -136,7 +148,17 @@ fn text(arguments: &Print) -> Result<String, Failure> {
         }
         Some((x, y)) if x < size.width && y < size.height => {
             let ray = rays.ray(x, y);
-            let reading = Reading::take(&scene, (x, y), ray, method, None, None);
+            let take = |method| Reading::take(&scene, (x, y), ray, method, None, None);
+            let lens = arguments.lens();
+            let asked = take(method);
+            let (reading, wrong) = match lens {
+                Lens::Machine => (asked, None),
+                Lens::Mathematics => {
+                    let exact = take(Method::Exact);
+                    let wrong = asked.disagreement(&exact);
+                    (exact, wrong)
+                }
+            };
             let text = if arguments.steps {
                 let glyphs = capability.glyphs;
                 let look = Look {
@@ -145,12 +167,15 @@ fn text(arguments: &Print) -> Result<String, Failure> {
                     ascii_only: glyphs == Glyphs::Ascii,
                     coarse: false,
                 };
-                steps(&scene, &rays, &reading, (view, look))
+                steps(&scene, &rays, method, (lens, &reading), (view, look))
             } else {
-                panel(&reading)
+                panel(lens, &reading)
             };
             let acne = acne_line(&scene, &rays, method, view, (x, y));
-            let text = format!("{}\n{acne}{text}", title(&reading, size));
+            let wrong = wrong.map_or(String::new(), |wrong| {
+                format!("{wrong}: --lens machine shows why\n")
+            });
+            let text = format!("{}\n{acne}{text}{wrong}", title((lens, &reading), size));
             Ok(capability.glyphs.spell(&text))
         }
         Some((x, y)) => {
@@ -177,10 +202,17 @@ pub(super) fn view_in(style: Style, asked: Option<View>) -> Result<View, String>
 }
 
 /// For which pixel the lines below are.
-fn title(reading: &Reading, size: Size) -> String {
+fn title((lens, reading): (Lens, &Reading), size: Size) -> String {
     let Size { width, height } = size;
-    let ((x, y), method) = (reading.pixel, reading.method);
-    format!("ray at ({x}, {y}) of {width} by {height} pixels, method {method}")
+    let (x, y) = reading.pixel;
+    let by = match lens {
+        Lens::Mathematics => String::new(),
+        Lens::Machine => format!(", method {}", reading.method),
+    };
+    format!(
+        "ray at ({x}, {y}) of {width} by {height} pixels, lens {}{by}",
+        lens.name()
+    )
 }
 
 /// What the view `acne` says of a pixel, on a line; nothing in other views.
@@ -197,27 +229,37 @@ fn acne_line(scene: &Scene, rays: &Rays, method: Method, view: View, (x, y): (u3
 }
 
 /// What the side panel of the explorer shows for a pixel.
-fn panel(reading: &Reading) -> String {
+fn panel(lens: Lens, reading: &Reading) -> String {
     let lines = explain::lines(
+        lens,
         reading,
         DEFAULT_ROOM.0 as usize,
-        Digits::Full,
+        match lens {
+            Lens::Mathematics => Digits::Significant(6),
+            Lens::Machine => Digits::Full,
+        },
         Glyphs::Unicode,
     );
     explain::plain_text(&lines)
 }
 
 /// The derivation of a pixel, from its place to the character that shows it.
-fn steps(scene: &Scene, rays: &Rays, reading: &Reading, (view, look): (View, Look)) -> String {
-    let frame = rendered(scene, rays, reading.method, view);
+fn steps(
+    scene: &Scene,
+    rays: &Rays,
+    method: Method,
+    (lens, reading): (Lens, &Reading),
+    (view, look): (View, Look),
+) -> String {
+    let frame = rendered(scene, rays, method, view);
     let mut image = Image::new();
     image.draw(&frame, scene, look);
     let drawn = Drawn::at(reading.pixel, &frame, &image, look.style);
-    let steps = explain::derivation(reading, scene, rays, &drawn);
+    let steps = explain::sheet(lens, reading, Some(scene), Some(rays), Some(&drawn));
     if steps.is_empty() {
         return "The scene has no spheres.\n".into();
     }
-    format!("\n{}", explain::steps_text(&steps, DEFAULT_ROOM.0 as usize))
+    explain::sheet_text(&steps, DEFAULT_ROOM.0 as usize)
 }
 
 /// The picture as text, with escape sequences for its colours if there are any.

@@ -6,16 +6,18 @@
 
 mod acne;
 mod compare;
-mod derivation;
+mod equation;
 mod figure;
 mod lens;
 mod number;
 mod panel;
 mod plan;
-mod steps;
+mod question;
+mod sheet;
 pub mod worksheet;
 
 use std::cmp::Ordering;
+use std::sync::{Arc, OnceLock};
 
 use glam::{DVec3, Vec3};
 
@@ -25,7 +27,7 @@ use crate::scene::{Body, Scene};
 
 pub use acne::acne_words;
 pub use compare::{comparison, measured_bits};
-pub use derivation::{Drawn, Step, StepQuestion, derivation};
+pub use equation::{Sign, sign_of_shown};
 pub use figure::{
     FigureInk, Float, Landmark, PlaneLine, bits, curve, landmarks, plane, plane_lines, slice,
     turning, work,
@@ -36,7 +38,11 @@ pub use panel::{Line, Role, Span, fit, lines, plain_text};
 pub use plan::{
     FramePlan, PlanLine, Plans, plan_lines, plan_panel, plan_sentence, plans_report, plans_table,
 };
-pub use steps::{StepLook, question_lines, step_lines, step_list, step_words, steps_text};
+pub use question::{Choice, Judgement, StepQuestion};
+pub use sheet::{
+    Drawn, Equation, LedgerEntry, Link, SheetLook, Step, question_lines, sheet, sheet_lines,
+    sheet_text, step_lines,
+};
 pub use worksheet::Worksheet;
 
 /// What the ray of one pixel finds in a scene.
@@ -99,6 +105,31 @@ pub struct Subject {
     pub trace: Trace,
     /// What is seen of it.
     pub sight: Option<Sight>,
+    /// Its quadratic, worked exactly; made when it is asked for.
+    worked: OnceLock<Arc<sheet::WorkedQuadratic>>,
+    ray: Ray,
+}
+
+impl Subject {
+    /// Its quadratic, worked exactly.
+    fn worked(&self) -> Arc<sheet::WorkedQuadratic> {
+        let work = || Arc::new(sheet::WorkedQuadratic::new(&self.ray, &self.sphere, false));
+        Arc::clone(self.worked.get_or_init(work))
+    }
+
+    /// Judges the answer to a question about it; says what was expected where it is none.
+    pub fn judge(&self, question: StepQuestion, answer: &str) -> Result<Judgement, String> {
+        let quadratic = &self.worked();
+        let place = self.trace.truth.place();
+        question.judge(answer, &question::Given { quadratic, place })
+    }
+
+    /// The right answer to a question about it.
+    pub fn right_answer(&self, question: StepQuestion) -> String {
+        let quadratic = &self.worked();
+        let place = self.trace.truth.place();
+        question.right(&question::Given { quadratic, place })
+    }
 }
 
 /// The visible point of a sphere.
@@ -143,6 +174,31 @@ impl Why {
 }
 
 impl Reading {
+    /// Asks `method` about one ray and one sphere, without a scene.
+    pub fn alone(ray: Ray, sphere: Sphere, method: Method) -> Self {
+        let body = Body {
+            sphere,
+            name: None,
+            color: None,
+        };
+        let subject = subject((0, &body), Why::Chosen, &ray, method);
+        let solution = subject.solution;
+        let met = solution.class.meets();
+        Self {
+            pixel: (0, 0),
+            ray,
+            method,
+            spheres: 1,
+            meetings: met
+                .then_some(Meeting { body: 0, solution })
+                .into_iter()
+                .collect(),
+            subject: Some(subject),
+            other_sphere: None,
+            wrong: Vec::new(),
+        }
+    }
+
     /// Asks `method` about every sphere of `scene` along `ray`.
     ///
     /// Shown is the `chosen` sphere if the line meets it, else the nearest hit, else one that the line
@@ -184,9 +240,37 @@ impl Reading {
             spheres: scene.bodies.len(),
             other_sphere: other_sphere(scene, &ray, method, &meetings),
             wrong: wrong(scene, &ray, method, shown),
-            subject: pick.map(|(body, why)| subject(scene, body, why, &ray, method)),
+            subject: pick
+                .map(|(body, why)| subject((body, &scene.bodies[body]), why, &ray, method)),
             meetings,
         }
+    }
+}
+
+impl Reading {
+    /// Where this method is wrong about the pixel, held to the reading of `exact`: what is wrong.
+    pub fn disagreement(&self, exact: &Self) -> Option<String> {
+        let method = self.method;
+        if let Some([seen, right]) = self.other_sphere {
+            let [seen, right] = [seen + 1, right + 1];
+            return Some(format!("{method} sees sphere {seen} here, not {right}"));
+        }
+        let first = |reading: &Self| {
+            let first = reading.meetings.first()?;
+            Some((first.body, first.solution.visible()?))
+        };
+        match (first(self), first(exact)) {
+            (None, Some(_)) => return Some(format!("{method} sees nothing here")),
+            (Some(_), None) => return Some(format!("{method} sees a sphere here")),
+            (Some((_, t)), Some((_, right))) if (t - right).abs() > right / 1000.0 => {
+                return Some(format!("{method} has t at {t} here"));
+            }
+            _ => {}
+        }
+        let [said, right] = [self, exact].map(|r| r.subject.as_ref());
+        let (said, right) = said.zip(right).filter(|(s, r)| s.body == r.body)?;
+        let wrong = said.solution.class != right.solution.class;
+        wrong.then(|| format!("{method} says {} here", said.solution.class))
     }
 }
 
@@ -308,8 +392,12 @@ fn nearest_miss(bodies: &[Body], ray: &Ray) -> Option<usize> {
     })
 }
 
-fn subject(scene: &Scene, body: usize, why: Why, ray: &Ray, method: Method) -> Subject {
-    let Body { sphere, name, .. } = &scene.bodies[body];
+fn subject(
+    (body, Body { sphere, name, .. }): (usize, &Body),
+    why: Why,
+    ray: &Ray,
+    method: Method,
+) -> Subject {
     let solution = method.solve(ray, sphere);
     Subject {
         body,
@@ -320,6 +408,8 @@ fn subject(scene: &Scene, body: usize, why: Why, ray: &Ray, method: Method) -> S
         solution,
         trace: method.trace(ray, sphere),
         sight: solution.visible().map(|t| sight(ray, sphere, &solution, t)),
+        worked: OnceLock::new(),
+        ray: *ray,
     }
 }
 

@@ -16,9 +16,12 @@ use std::cmp::Ordering;
 
 use glam::Vec3;
 
-use super::{Digits, FigureInk, Meeting, Reading, Subject, Wrong, number, vector};
-use crate::method::trace::{Measured, error_text};
-use crate::method::{Class, Coefficients, Place, Precision, Solution, Trace};
+use super::{
+    Digits, Equation, FigureInk, Lens, Meeting, Reading, Sign, Subject, Wrong, number, sheet,
+    vector,
+};
+use crate::method::trace::Measured;
+use crate::method::{Class, Place, Precision, Solution, Trace};
 use crate::text::{Glyphs, wrap};
 
 /// One line of a panel.
@@ -171,9 +174,25 @@ const RADIUS_LABEL: &str = "   r ";
 /// Where the formula with the numbers put in starts.
 const SUBSTITUTED: usize = 2;
 
-/// The panel for a reading, in lines of at most `width` characters where that is possible, once they are
-/// spelt in `glyphs`.
-pub fn lines(reading: &Reading, width: usize, digits: Digits, glyphs: Glyphs) -> Vec<Line> {
+/// The panel for a reading through a lens, in lines of at most `width` characters where that is possible.
+///
+/// Through the lens `mathematics` the reading must be that of `exact`.
+pub fn lines(
+    lens: Lens,
+    reading: &Reading,
+    width: usize,
+    digits: Digits,
+    glyphs: Glyphs,
+) -> Vec<Line> {
+    match (lens, &reading.subject) {
+        (Lens::Mathematics, Some(subject)) => {
+            mathematics_lines(reading, subject, (width, glyphs), digits)
+        }
+        _ => machine_lines(reading, width, digits),
+    }
+}
+
+fn machine_lines(reading: &Reading, width: usize, digits: Digits) -> Vec<Line> {
     let mut out = Vec::new();
     let in_room = |v| columned_vector(v, width.saturating_sub(LABEL_WIDTH), digits);
     out.push(labelled("p0", &in_room(reading.ray.origin), 0));
@@ -183,14 +202,112 @@ pub fn lines(reading: &Reading, width: usize, digits: Digits, glyphs: Glyphs) ->
         out.push(Line::new(0).with(Role::Plain, "The scene has no spheres."));
         return out;
     };
-    out.extend(subject_lines(subject, reading.spheres, width, digits));
+    out.push(subject_title(subject, reading.spheres, width));
+    out.push(subject_place(subject, width, digits));
     out.push(Line::new(5));
-    out.extend(coefficient_lines(reading, subject, width, digits, glyphs));
+    out.extend(coefficient_lines(subject, width, digits));
     out.extend(verdict_lines(subject, width, digits));
     out.extend(wrong_lines(reading, width));
     out.extend(sight_lines(subject, width, digits));
-    out.extend(meeting_lines(reading, subject.body, digits));
+    out.extend(meeting_lines(reading, subject.body, digits, None));
     out.extend(word_lines(&subject.trace, width));
+    out
+}
+
+/// The quadratic worked exactly, its numbers written as on the sheet.
+fn mathematics_lines(
+    reading: &Reading,
+    subject: &Subject,
+    (width, glyphs): (usize, Glyphs),
+    digits: Digits,
+) -> Vec<Line> {
+    let q = subject.worked();
+    let steps = sheet::mathematics(reading, subject);
+    let steps: Vec<_> = steps.iter().map(|step| step.spelt(glyphs)).collect();
+    let room = sheet::room_for_signs(width, glyphs);
+    let step = |name: &str| steps.iter().find(|step| step.name == glyphs.spell(name));
+    let equations = |name: &str| step(name).map_or(&[][..], |step| step.equations.as_slice());
+    let written = |equation: &Equation, spare: u8| -> Vec<Line> {
+        let lines = sheet::equation_lines(equation, room, false);
+        let last = lines.len().saturating_sub(1);
+        let spared = lines.into_iter().enumerate().map(|(i, line)| {
+            // What stands between two equal signs may go, and what is left is true.
+            let text = line.text();
+            let is_between = i > 0 && i < last && text.trim_start().starts_with('=');
+            let may_go = spare == 0 && is_between && !text.contains('≈');
+            Line {
+                spare: if may_go { 3 } else { spare },
+                is_joined: i > 0 && spare > 0,
+                ..line
+            }
+        });
+        spared.collect()
+    };
+    // What comes out, without the numbers that it comes out of.
+    let result = |equation: &Equation, spare: u8| {
+        let ways = equation.ways.last().cloned().into_iter().collect();
+        let ledger = Vec::new();
+        let formula = equation.formula.clone();
+        written(
+            &Equation {
+                formula,
+                ways,
+                ledger,
+            },
+            spare,
+        )
+    };
+    let mut out = Vec::new();
+    for (i, equation) in equations("ray").iter().enumerate() {
+        if i == 2 {
+            out.push(subject_title(subject, reading.spheres, width));
+        }
+        out.extend(written(equation, 0));
+    }
+    out.push(Line::new(6));
+    for name in ["A", "B", "C", "Δ"] {
+        // The squares of d tell little, where they are not whole.
+        let rounds = |e: &Equation| e.ways[0].iter().any(|link| link.sign == Sign::Near);
+        let shown = equations(name).iter().flat_map(|equation| {
+            if name == "A" && rounds(equation) {
+                result(equation, 0)
+            } else {
+                written(equation, 0)
+            }
+        });
+        out.extend(shown);
+    }
+    let class = q.truth.class();
+    let verdict = match class {
+        Class::Miss => "Δ < 0: the line misses the sphere",
+        Class::Tangent => "Δ = 0: it touches in one point",
+        Class::Secant | Class::Hit | Class::Nan => "Δ > 0: it meets in two points",
+    };
+    out.push(Line::new(2).with(Role::Verdict(class), verdict));
+    for equation in equations("roots").iter().chain(equations("closest")) {
+        out.extend(result(equation, 0));
+    }
+    let place = match subject.solution.place() {
+        Some(Place::Hit) => "hit: in front of the eye",
+        Some(Place::Inside) => "inside: the eye is in the sphere",
+        Some(Place::Behind) => "behind the eye: not seen",
+        None => "",
+    };
+    if !place.is_empty() {
+        out.push(Line::new(1).with(Role::Plain, place));
+    }
+    if let Some(point) = equations("p").first() {
+        out.extend(result(point, 2));
+    }
+    if let Some(cosine) = equations("light")
+        .first()
+        .filter(|e| e.formula.starts_with("cos ") && e.formula.contains('='))
+    {
+        out.extend(result(cosine, 4));
+    }
+    let roots = q.roots.as_ref();
+    let roots = roots.map(|roots| roots.each_ref().map(|root| root.written.text.clone()));
+    out.extend(meeting_lines(reading, subject.body, digits, roots.as_ref()));
     out
 }
 
@@ -267,7 +384,7 @@ fn columned_vector(v: Vec3, room: usize, digits: Digits) -> String {
     padded.concat().trim_end().to_owned()
 }
 
-fn subject_lines(subject: &Subject, spheres: usize, width: usize, digits: Digits) -> Vec<Line> {
+fn subject_title(subject: &Subject, spheres: usize, width: usize) -> Line {
     let mut title = format!("sphere {} of {spheres}", subject.body + 1);
     if let Some(name) = &subject.name {
         title = format!("{title}, {name}");
@@ -276,113 +393,69 @@ fn subject_lines(subject: &Subject, spheres: usize, width: usize, digits: Digits
     let has_room = |why: &&str| title.chars().count() + 1 + why.len() <= width;
     let why = Some(subject.why.words()).filter(has_room).unwrap_or("");
     let title = clip(&title, width.saturating_sub(why.len()));
-    let radius = number(subject.sphere.radius.into(), Precision::Binary32, digits);
-    let room = width.saturating_sub(LABEL_WIDTH + RADIUS_LABEL.len() + radius.chars().count());
-    vec![
-        Line::new(1)
-            .with(Role::Plain, title)
-            .to(width.saturating_sub(why.len()))
-            .with(Role::Faint, why),
-        Line::new(0)
-            .with(Role::Label, "c")
-            .to(LABEL_WIDTH)
-            .with(
-                Role::Value,
-                columned_vector(subject.sphere.center, room, digits),
-            )
-            .with(Role::Label, RADIUS_LABEL)
-            .with(Role::Value, radius),
-    ]
+    Line::new(1)
+        .with(Role::Plain, title)
+        .to(width.saturating_sub(why.len()))
+        .with(Role::Faint, why)
 }
 
-fn coefficient_lines(
-    reading: &Reading,
-    subject: &Subject,
-    width: usize,
-    digits: Digits,
-    glyphs: Glyphs,
-) -> Vec<Line> {
-    let Coefficients {
-        precision,
-        a,
-        b,
-        c,
-        discriminant,
-    } = subject.coefficients;
-    let show = |x: f64| number(x, precision, digits);
-    let in_brackets = |x: f64, n: usize| bracketed(&number(x, precision, Digits::Significant(n)));
+/// The centre and the radius.
+fn subject_place(subject: &Subject, width: usize, digits: Digits) -> Line {
+    let radius = number(subject.sphere.radius.into(), Precision::Binary32, digits);
+    let room = width.saturating_sub(LABEL_WIDTH + RADIUS_LABEL.len() + radius.chars().count());
+    Line::new(0)
+        .with(Role::Label, "c")
+        .to(LABEL_WIDTH)
+        .with(
+            Role::Value,
+            columned_vector(subject.sphere.center, room, digits),
+        )
+        .with(Role::Label, RADIUS_LABEL)
+        .with(Role::Value, radius)
+}
 
-    let d = reading.ray.direction.to_array().map(f64::from);
-    let o = (reading.ray.origin - subject.sphere.center)
-        .to_array()
-        .map(f64::from);
-    let r = f64::from(subject.sphere.radius);
-    let squares = |v: [f64; 3], n| v.map(|x| format!("{}²", in_brackets(x, n))).join(" + ");
-    // Where room is short the signs, which squares lose, go first.
-    let length = |n| match n {
-        MOST_PUT_IN.. => squares(d, n),
-        _ => squares(d.map(f64::abs), n),
-    };
-    let product = |n| {
-        let terms = [0, 1, 2].map(|i| format!("{}·{}", in_brackets(d[i], n), in_brackets(o[i], n)));
-        format!("2({})", terms.join(" + "))
-    };
-    let distance = |n| format!("{} − {}²", squares(o, n), in_brackets(r, n));
-    let short_distance = |n| {
-        let both = [c + r * r, r * r].map(|x| in_brackets(x, n));
-        format!("{} − {}", both[0], both[1])
-    };
-    let discriminant_of = |n| {
-        let [a, b, c] = [a, b, c].map(|x| in_brackets(x, n));
-        format!("{b}² − 4·{a}·{c}")
-    };
-    let short_difference = |n| {
-        let both = [b * b, 4.0 * a * c].map(|x| in_brackets(x, n));
-        format!("{} − {}", both[0], both[1])
-    };
-    let dot = |n| format!("2·{}", in_brackets(b / 2.0, n));
-    let room = ExpressionRoom {
-        chars: width.saturating_sub(SUBSTITUTED + 2),
-        glyphs,
-    };
+fn coefficient_lines(subject: &Subject, width: usize, digits: Digits) -> Vec<Line> {
+    let c = subject.coefficients;
+    let trace = &subject.trace;
     let rows = [
-        ("A", "d·d", room.widest(&length, &length), a),
-        ("B", "2 d·(p0−c)", room.widest(&product, &dot), b),
-        (
-            "C",
-            "|p0−c|² − r²",
-            room.widest(&distance, &short_distance),
-            c,
-        ),
-        (
-            "Δ",
-            "B² − 4AC",
-            room.widest(&discriminant_of, &short_difference),
-            discriminant,
-        ),
+        ("A", "d·d", c.a, &trace.a),
+        ("B", "2 d·(p0−c)", c.b, &trace.b),
+        ("C", "|p0−c|² − r²", c.c, &trace.c),
+        ("Δ", "B² − 4AC", c.discriminant, &trace.discriminant),
     ];
     let mut out = Vec::new();
-    let trace = &subject.trace;
-    let measured = [&trace.a, &trace.b, &trace.c, &trace.discriminant];
-    for ((label, formula, substituted, value), measured) in rows.into_iter().zip(measured) {
-        out.push(
-            Line::new(0)
-                .with(Role::Label, label)
-                .to(LABEL_WIDTH)
-                .with(Role::Formula, formula)
-                .to(VALUE_COLUMN)
-                .with(Role::Value, hang(&show(value))),
-        );
-        out.push(
-            Line::new(3)
-                .to(SUBSTITUTED)
-                .with(Role::Faint, format!("= {substituted}")),
-        );
+    for (label, formula, value, measured) in rows {
+        let value = number(value, c.precision, digits);
+        out.push(given(label, formula, &value));
+        out.push(operands_line(trace, label, width));
         // The class hangs on Δ alone.
         let spare = if label == "Δ" { 4 } else { 6 };
         out.push(exact_line(Some(measured), width, spare));
     }
     out
+}
+
+/// What an operation gave.
+fn given(label: &str, formula: &str, value: &str) -> Line {
+    Line::new(0)
+        .with(Role::Label, label)
+        .to(LABEL_WIDTH)
+        .with(Role::Formula, formula)
+        .to(VALUE_COLUMN - 2)
+        .with(Role::Plain, "→ ")
+        .with(Role::Value, hang(value))
+}
+
+/// The numbers that the method put into the formula of that letter, where it has one and there is room
+/// for all their digits.
+fn operands_line(trace: &Trace, label: &str, width: usize) -> Line {
+    let step = trace.step(label);
+    let room = width.saturating_sub(SUBSTITUTED);
+    let numbers = step.map(|step| step.numbers.as_str());
+    match numbers.filter(|numbers| numbers.chars().count() <= room) {
+        Some(numbers) => Line::new(3).to(SUBSTITUTED).with(Role::Plain, numbers),
+        None => Line::place(),
+    }
 }
 
 /// What the number should be, and how far off it is; if it is right, or not there, the place for that.
@@ -395,7 +468,10 @@ fn exact_line(measured: Option<&Measured>, width: usize, spare: u8) -> Line {
 }
 
 fn off_line(measured: &Measured, ulps: f64, width: usize, spare: u8) -> Option<Line> {
-    let off = format!("  {:>OFF$}", error_text(ulps, measured.precision, GLYPHS));
+    let off = format!(
+        "  {:>OFF$}",
+        measured.error_text(GLYPHS).unwrap_or_default()
+    );
     let room = width.saturating_sub(SUBSTITUTED + "exactly ".len() + off.chars().count());
     let exact = (4..=MOST_DIGITS)
         .rev()
@@ -425,7 +501,7 @@ const GLYPHS: Glyphs = Glyphs::Unicode;
 const MANY_ULPS: f64 = 256.0;
 
 /// Where values stand, their signs one to the left.
-const VALUE_COLUMN: usize = 19;
+const VALUE_COLUMN: usize = 22;
 
 /// A value with a blank where a minus sign would be, so that digits stand under digits.
 fn hang(value: &str) -> String {
@@ -433,39 +509,6 @@ fn hang(value: &str) -> String {
         value.to_owned()
     } else {
         format!(" {value}")
-    }
-}
-
-fn bracketed(value: &str) -> String {
-    if value.starts_with('−') {
-        format!("({value})")
-    } else {
-        value.to_owned()
-    }
-}
-
-/// An expression in numbers of that many digits.
-type Expression<'a> = &'a dyn Fn(usize) -> String;
-
-/// With so many digits at most numbers are put into a formula: the result comes out of them by hand.
-const MOST_PUT_IN: usize = 7;
-
-/// What an expression has to fit into.
-struct ExpressionRoom {
-    chars: usize,
-    glyphs: Glyphs,
-}
-
-impl ExpressionRoom {
-    /// The expression with as many digits as there is room for, at least three; else the shorter one.
-    fn widest(&self, expression: Expression<'_>, shorter: Expression<'_>) -> String {
-        let fits = |e: &String| self.glyphs.spell(e).chars().count() <= self.chars;
-        let in_full = (3..=MOST_PUT_IN).rev().map(expression).find(fits);
-        let in_short = || (3..=MOST_PUT_IN).rev().map(shorter).find(fits);
-        in_full
-            .or_else(in_short)
-            .or_else(|| Some(expression(2)).filter(fits))
-            .unwrap_or_else(|| clip(&shorter(2), self.chars.max(8)))
     }
 }
 
@@ -489,7 +532,7 @@ fn verdict_lines(subject: &Subject, width: usize, digits: Digits) -> Vec<Line> {
         Class::Secant if subject.trace.method.is_routine() => "two roots, as the routine says",
         Class::Nan if subject.trace.method.is_routine() => "not a number: no answer",
         Class::Miss => "Δ < 0  miss: no point in common",
-        Class::Tangent => "Δ = 0  tangent: it touches",
+        Class::Tangent => "Δ is 0  tangent: it touches",
         Class::Secant => "Δ > 0  secant: two points",
         Class::Nan => "Δ is not a number: no answer",
     };
@@ -503,9 +546,9 @@ fn verdict_lines(subject: &Subject, width: usize, digits: Digits) -> Vec<Line> {
     if class.meets() {
         let [near, far] = [near, far].map(|t| number(t.into(), Precision::Binary32, digits));
         let exact = |m: &Option<Measured>| exact_line(m.as_ref(), width, 4);
-        out.push(root("near", "(−B − √Δ) / 2A", &near));
+        out.push(given("near", "(−B−√Δ)/2A", &near));
         out.push(exact(&subject.trace.near));
-        out.push(root("far", "(−B + √Δ) / 2A", &far));
+        out.push(given("far", "(−B+√Δ)/2A", &far));
         out.push(exact(&subject.trace.far));
     }
     let words = match subject.solution.place() {
@@ -542,15 +585,6 @@ fn wrong_lines(reading: &Reading, width: usize) -> Vec<Line> {
 /// How many of the other spheres that a method gets wrong are named.
 const MOST_WRONG: usize = 2;
 
-fn root(label: &str, formula: &str, value: &str) -> Line {
-    Line::new(0)
-        .with(Role::Label, label)
-        .to(LABEL_WIDTH)
-        .with(Role::Formula, formula)
-        .to(VALUE_COLUMN + 1)
-        .with(Role::Value, hang(value))
-}
-
 /// What is there to be compared is shown with one digit less.
 const fn fewer(digits: Digits) -> Digits {
     match digits {
@@ -579,7 +613,12 @@ fn sight_lines(subject: &Subject, width: usize, digits: Digits) -> Vec<Line> {
 }
 
 /// The other spheres on the line, nearest first, if there is more than the one shown.
-fn meeting_lines(reading: &Reading, shown: usize, digits: Digits) -> Vec<Line> {
+fn meeting_lines(
+    reading: &Reading,
+    shown: usize,
+    digits: Digits,
+    roots: Option<&[String; 2]>,
+) -> Vec<Line> {
     if reading.meetings.len() < 2 {
         return Vec::new();
     }
@@ -597,7 +636,13 @@ fn meeting_lines(reading: &Reading, shown: usize, digits: Digits) -> Vec<Line> {
             Ordering::Less => 1,
             _ => 2,
         };
-        out.push(meeting_line(meeting, meeting.body == shown, spare, digits));
+        let roots = roots.cloned().filter(|_| meeting.body == shown);
+        out.push(meeting_line(
+            meeting,
+            meeting.body == shown,
+            spare,
+            (digits, roots),
+        ));
     }
     let more = reading.meetings.len().saturating_sub(last);
     if more > 0 {
@@ -609,12 +654,18 @@ fn meeting_lines(reading: &Reading, shown: usize, digits: Digits) -> Vec<Line> {
 /// So many of the spheres on a line are listed at least; the list reaches to the one that is shown.
 const MOST_MEETINGS: usize = 100;
 
-fn meeting_line(meeting: &Meeting, shown: bool, spare: u8, digits: Digits) -> Line {
+fn meeting_line(
+    meeting: &Meeting,
+    shown: bool,
+    spare: u8,
+    (digits, written): (Digits, Option<[String; 2]>),
+) -> Line {
     let Solution {
         class, near, far, ..
     } = meeting.solution;
     let digits = fewer(digits);
-    let [near, far] = [near, far].map(|t| number(t.into(), Precision::Binary32, digits));
+    let as_machine = [near, far].map(|t| number(t.into(), Precision::Binary32, digits));
+    let [near, far] = written.unwrap_or(as_machine);
     // The words after the numbers stay where they are while those change.
     let roots = if class == Class::Tangent {
         format!("t {near:<20}")

@@ -25,6 +25,7 @@ mod own_routine;
 mod panel;
 mod plain;
 mod prepare;
+mod progress;
 mod routines;
 mod set;
 mod setting;

@@ -5,7 +5,7 @@
 
 use ratatui::layout::Rect;
 
-use crate::explain::{self, Digits, Line, Reading, StepLook, Subject};
+use crate::explain::{self, Digits, Line, Reading, StepQuestion, Subject};
 use crate::explorer::action::{Action, Group};
 use crate::explorer::command::{self, Command, with_argument};
 use crate::explorer::dialog::{Confirmation, Purpose};
@@ -198,6 +198,17 @@ impl Explorer {
 
     /// Takes a line as the answer to the question that is open, if it can be one.
     fn is_answer(&mut self, line: &str) -> bool {
+        if walk::pending_question(&self.state).is_some() && !self.is_asking() {
+            let is_number = line.starts_with(|c: char| c.is_ascii_digit() || "-−.+".contains(c));
+            let is_word = Action::by_name(line).is_none() && is_number;
+            let choices = walk::pending_question(&self.state).and_then(StepQuestion::choices);
+            let is_choice = choices.is_some_and(|choices| {
+                choices
+                    .iter()
+                    .any(|(c, word)| line == *word || line.chars().eq([*c]))
+            });
+            return (is_word || is_choice) && walk::take_answer(&mut self.state, line);
+        }
         let Some(key) = Key::parse(line) else {
             if matches!(self.question(), Some(Confirmation::Recover { .. })) {
                 keep::put_off(&mut self.state);
@@ -209,7 +220,7 @@ impl Explorer {
             self.press(key);
             return true;
         }
-        walk::answer_prediction(&mut self.state, key)
+        false
     }
 
     /// Does an action several times.
@@ -312,21 +323,10 @@ impl Explorer {
 
     /// The step of the derivation that is shown.
     fn step_in_text(&self) -> String {
-        let Some(step) = self.state.current_step() else {
+        if self.state.current_step().is_none() {
             return "The scene has no spheres.\n".into();
-        };
-        let look = StepLook {
-            hidden: self.state.is_hidden(),
-            changed: false,
-        };
-        let mut lines = explain::step_lines(step, WIDTH, look);
-        if let Some(question) = walk::pending_question(&self.state) {
-            lines.extend(explain::question_lines(
-                question,
-                WIDTH,
-                self.state.options.glyphs,
-            ));
         }
+        let lines = explain::step_lines(&self.state.picture.steps, steps::look(&self.state), WIDTH);
         format!("{}\n{}", steps::title(&self.state), without_gaps(&lines))
     }
 

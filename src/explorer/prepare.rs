@@ -1,7 +1,7 @@
 //! Brings picture, reading and derivation up to date: each is made again only when what it depends on
 //! changed. The picture may take long, so it is only begun here, and gone on with in slices.
 
-use crate::explain::{Drawn, Reading, Step, derivation};
+use crate::explain::{Drawn, Lens, Reading, Step, sheet};
 use crate::explorer::arrival::scaled;
 use crate::explorer::draw::layout;
 use crate::explorer::draw::picture::{Picture, PictureKey, ReadingKey};
@@ -9,6 +9,7 @@ use crate::explorer::options::Options;
 use crate::explorer::state::State;
 use crate::explorer::viewpoint::Viewpoint;
 use crate::explorer::{cursor, walk};
+use crate::method::Method;
 use crate::render::{Allowance, Look, fit};
 use crate::scene::Size;
 use crate::text::Glyphs;
@@ -80,19 +81,27 @@ fn read(state: &mut State, picture: PictureKey) {
         cursor: state.at.cursor,
         selected: state.at.sphere,
         chosen: state.at.shown,
+        lens: state.at.lens,
     };
     if state.picture.reading_key == Some(key) {
         return;
     }
     let ray = state.picture.rays.ray(state.at.cursor.0, state.at.cursor.1);
-    state.picture.reading = Some(Reading::take(
-        state.scene(),
-        state.at.cursor,
-        ray,
-        state.at.method,
-        state.at.sphere,
-        state.at.shown,
-    ));
+    let take = |method| {
+        let (selected, chosen) = (state.at.sphere, state.at.shown);
+        Reading::take(
+            state.scene(),
+            state.at.cursor,
+            ray,
+            method,
+            selected,
+            chosen,
+        )
+    };
+    let method = state.at.method;
+    let is_needed = method != Method::Exact && state.at.lens == Lens::Mathematics;
+    let exact_reading = is_needed.then(|| take(Method::Exact));
+    (state.picture.reading, state.picture.exact_reading) = (Some(take(method)), exact_reading);
     state.picture.reading_key = Some(key);
     derive(state);
 }
@@ -103,12 +112,12 @@ fn derive(state: &mut State) {
     state.picture.changed.clear();
     derive_steps(state);
     walk::keep_step(state);
-    state.prediction.revealed = false;
+    state.prediction.begin_step();
 }
 
 /// Makes the steps, as far as the picture allows, and notes which results are other ones than before.
 fn derive_steps(state: &mut State) {
-    let Some(reading) = &state.picture.reading else {
+    let Some(reading) = state.reading() else {
         return;
     };
     let Picture { frame, image, .. } = &state.picture;
@@ -119,16 +128,20 @@ fn derive_steps(state: &mut State) {
     } else {
         Drawn::at(cursor, frame, image, style)
     };
-    let steps = derivation(reading, state.scene(), &state.picture.rays, &drawn);
+    let (scene, rays) = (Some(state.scene()), Some(&state.picture.rays));
+    let steps = sheet(state.at.lens, reading, scene, rays, Some(&drawn));
     let before = &state.picture.steps_before;
     let pending = &state.picture.steps;
     let is_new = |(i, step): (usize, &Step)| {
         // A person may have taken the marks away since.
-        if pending.get(i).is_some_and(|old| old.result == step.result) {
+        if pending
+            .get(i)
+            .is_some_and(|old| old.result() == step.result())
+        {
             return state.picture.changed[i];
         }
         let old = before.iter().find(|old| old.name == step.name);
-        !before.is_empty() && old.is_none_or(|old| old.result != step.result)
+        !before.is_empty() && old.is_none_or(|old| old.result() != step.result())
     };
     state.picture.changed = steps.iter().enumerate().map(is_new).collect();
     state.picture.steps = steps;

@@ -3,7 +3,7 @@
 //!
 //! A part changes it by what it does to a `&mut State`; what only one part needs is that part's own.
 
-use crate::explain::{Digits, PlaneLine, Reading, Step, Subject};
+use crate::explain::{Digits, Lens, PlaneLine, Reading, Step, StepQuestion, Subject};
 use crate::explorer::action::Action;
 use crate::explorer::arrival::Arrival;
 use crate::explorer::dialog::{Confirmation, Dialog, Message};
@@ -14,6 +14,7 @@ use crate::explorer::edit::motion::usual_step;
 use crate::explorer::files::place::FilePlace;
 use crate::explorer::files::rescue::Rescue;
 use crate::explorer::files::workplace::Workplace;
+use crate::explorer::mode::line::TypedLine;
 use crate::explorer::options::{Options, Request};
 use crate::explorer::own_routine::OwnRoutine;
 use crate::explorer::panel::Panel;
@@ -114,15 +115,30 @@ pub(crate) struct Aside {
     pub(crate) probe: Option<usize>,
 }
 
-/// Predict, then reveal: whether results are kept back, and how the guesses went. Nothing of it is
-/// stored anywhere.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+/// Predict, then reveal: whether results are kept back, and how the answers went.
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Prediction {
     pub(crate) on: bool,
     /// The result of the step shown has been revealed.
     pub(crate) revealed: bool,
+    /// How many of the questions of the step shown are done with.
+    pub(crate) answered: usize,
+    /// The question has been answered wrongly before.
+    pub(crate) missed: bool,
+    /// The number that is being typed.
+    pub(crate) typed: TypedLine,
+    /// What the person has been asked about: it would change the scene.
+    pub(crate) warned: Option<Action>,
     pub(crate) right: u32,
     pub(crate) asked: u32,
+}
+
+impl Prediction {
+    /// Begins with a step again.
+    pub(crate) fn begin_step(&mut self) {
+        (self.revealed, self.answered, self.missed) = (false, 0, false);
+        self.typed = TypedLine::default();
+    }
 }
 
 impl State {
@@ -168,9 +184,24 @@ impl State {
         self.work.document.scene()
     }
 
-    /// What the ray under the cursor found.
+    /// What the ray under the cursor finds: through the lens `mathematics` what there is to find, else
+    /// what the chosen method does.
     pub(crate) const fn reading(&self) -> Option<&Reading> {
+        match (self.at.lens, &self.picture.exact_reading) {
+            (Lens::Mathematics, Some(exact)) => Some(exact),
+            _ => self.machine_reading(),
+        }
+    }
+
+    /// What the chosen method finds, through whatever lens.
+    pub(crate) const fn machine_reading(&self) -> Option<&Reading> {
         self.picture.reading.as_ref()
+    }
+
+    /// Where the chosen method is wrong at this pixel: what is wrong, in a sentence.
+    pub(crate) fn disagreement(&self) -> Option<String> {
+        let exact = self.picture.exact_reading.as_ref()?;
+        self.machine_reading()?.disagreement(exact)
     }
 
     /// The sphere that the reading is of.
@@ -276,9 +307,16 @@ impl State {
         self.picture.steps.get(self.at.step.min(last))
     }
 
-    /// Whether the result of the step shown is kept back.
-    pub(crate) const fn is_hidden(&self) -> bool {
-        (self.prediction.on || self.board) && !self.prediction.revealed
+    /// The question of the step shown that waits for an answer, if results are kept back at all.
+    pub(crate) fn open_question(&self) -> Option<StepQuestion> {
+        let keeps = (self.prediction.on || self.board) && !self.prediction.revealed;
+        let questions = &self.current_step().filter(|_| keeps)?.questions;
+        questions.get(self.prediction.answered).copied()
+    }
+
+    /// Whether the result of the step shown is kept back: on the board, of any step.
+    pub(crate) fn is_hidden(&self) -> bool {
+        self.board && !self.prediction.revealed || self.open_question().is_some()
     }
 
     /// Whether results are to be predicted, so that nothing else may show them.

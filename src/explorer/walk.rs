@@ -1,20 +1,40 @@
 //! Walking through the derivation of a pixel: steps, predictions, the moving point.
 
-use crate::explain::{Digits, Landmark, Step, StepQuestion, landmarks, number};
+use crate::explain::{
+    Digits, Judgement, Landmark, Step, StepQuestion, landmarks, number, sign_of_shown,
+};
+use crate::explorer::action::{Action, Group};
 use crate::explorer::key::Key;
+use crate::explorer::mode::line::TypedLine;
 use crate::explorer::panel::Panel;
+use crate::explorer::progress;
 use crate::explorer::state::{Prediction, State};
 use crate::method::Precision;
 
 /// A step of the moving point, in radii.
 const SCRUB: f64 = 1.0 / 16.0;
 
-/// Steps that methods with half-b do in the place of those with B.
-const HALVES: [[&str; 2]; 4] = [["B", "b"], ["B²", "b²"], ["Δ", "D"], ["√Δ", "√D"]];
+/// Steps that methods with half-b do in the place of those with B, and what each lens has in the place of
+/// the other's.
+const HALVES: [[&str; 2]; 13] = [
+    ["B", "b"],
+    ["B²", "b²"],
+    ["Δ", "D"],
+    ["√Δ", "√D"],
+    ["Δ", "verdict"],
+    ["p0 − c", "o"],
+    ["ray", "pixel"],
+    ["ray", "sphere"],
+    ["ray", "insert"],
+    ["roots", "near"],
+    ["roots", "far"],
+    ["light", "shade"],
+    ["p", "check"],
+];
 
 /// Whether the picture still tells what is to be predicted: whether something is seen.
 pub(crate) fn is_picture_veiled(state: &State) -> bool {
-    let seen = |step: &Step| step.question == Some(StepQuestion::Seen);
+    let seen = |step: &Step| step.questions.contains(&StepQuestion::Seen);
     let last = state.picture.steps.iter().position(seen);
     state.is_predicting()
         && last.is_some_and(|last| {
@@ -27,8 +47,11 @@ pub(crate) fn next_step(state: &mut State) {
     let open = state.board || state.at.panel == Panel::Steps;
     if !open {
         state.at.panel = Panel::Steps;
+    } else if !state.prediction.typed.text().is_empty() && state.open_question().is_some() {
+        let answer = state.prediction.typed.text();
+        take_answer(state, &answer);
     } else if state.is_hidden() {
-        state.prediction.revealed = true;
+        show_answer(state);
     } else {
         go_to_step(state, state.at.step + 1);
     }
@@ -43,7 +66,7 @@ pub(crate) fn go_to_step(state: &mut State, at: usize) {
         state.say("That was the last step. < goes back to the first.");
     }
     if state.at.step != at.min(last) {
-        state.prediction.revealed = false;
+        state.prediction.begin_step();
     }
     state.at.step = at.min(last);
 }
@@ -58,17 +81,20 @@ pub(crate) fn keep_step(state: &mut State) {
     };
     let steps = &state.picture.steps;
     let place = |name: &str| steps.iter().position(|step| step.name == name);
-    let same = chosen.as_deref().and_then(|name| {
-        let other = HALVES.iter().find_map(|&[whole, half]| match name {
-            _ if name == whole => Some(half),
-            _ if name == half => Some(whole),
-            _ => None,
-        });
-        place(name).or_else(|| place(other?))
-    });
+    let same = chosen.as_deref();
+    let same = same.and_then(|name| place(name).or_else(|| counterparts(name).find_map(place)));
     let last = steps.len().saturating_sub(1);
     state.at.step = same.unwrap_or(state.at.step.min(last));
     state.kept_step = chosen.map(|name| (name, state.at.step));
+}
+
+/// The steps that may be in the place of the one of that name.
+fn counterparts(name: &str) -> impl Iterator<Item = &'static str> {
+    HALVES.iter().filter_map(move |&[whole, half]| match name {
+        _ if name == whole => Some(half),
+        _ if name == half => Some(whole),
+        _ => None,
+    })
 }
 
 pub(crate) fn go_to_step_named(state: &mut State, name: &str) {
@@ -81,7 +107,8 @@ pub(crate) fn go_to_step_named(state: &mut State, name: &str) {
 /// The place of the step of that name or, from 1, of that number.
 pub(crate) fn step_named(state: &State, name: &str) -> Result<usize, String> {
     let steps = &state.picture.steps;
-    let by_name = steps.iter().position(|s| s.name == name);
+    let place = |name: &str| steps.iter().position(|s| s.name == name);
+    let by_name = place(name).or_else(|| counterparts(name).find_map(place));
     let by_number = || name.parse().ok().and_then(|n: usize| n.checked_sub(1));
     let count = steps.len();
     by_name
@@ -98,60 +125,130 @@ pub(crate) fn toggle_prediction(state: &mut State) {
     };
     if on {
         state.at.panel = Panel::Steps;
-        state.say("Predict first: each result, the other panels and the picture wait for you.");
+        let so_far = progress::sentence(state);
+        state.say(format!(
+            "Type A, B, C, Δ and the roots before you see them; picture and panels wait. {so_far}"
+        ));
     } else {
         state.say("Results are shown again.");
     }
 }
 
-/// The question that waits for an answer.
+/// Goes on from a question without an answer.
+fn show_answer(state: &mut State) {
+    let is_question = state.open_question().is_some();
+    state.prediction.answered += 1;
+    (state.prediction.missed, state.prediction.typed) = (false, TypedLine::default());
+    if !is_question || state.open_question().is_none() {
+        state.prediction.revealed = true;
+    }
+}
+
+/// The question on the screen that waits for an answer.
 pub(crate) fn pending_question(state: &State) -> Option<StepQuestion> {
-    let shown = state.board || (state.prediction.on && state.at.panel == Panel::Steps);
-    state
-        .current_step()
-        .filter(|_| shown && state.is_hidden())?
-        .question
+    let shown = state.board || state.at.panel == Panel::Steps;
+    state.open_question().filter(|_| shown)
 }
 
 /// Whether a key could be the answer to some question, if one is on the screen.
 pub(crate) fn could_answer(state: &State, key: Key) -> bool {
-    let answers = |question: &StepQuestion| {
-        question
-            .answers()
-            .iter()
-            .any(|(c, _)| Some(*c) == key.typed())
-    };
-    (state.prediction.on || state.board) && StepQuestion::ALL.iter().any(answers)
+    let types = key.is("backspace") || key.typed().is_some_and(|c| !c.is_whitespace());
+    (state.prediction.on || state.board) && types
 }
 
-/// Takes a key as the answer to the question on the screen; false if it is none.
-pub(crate) fn answer_prediction(state: &mut State, key: Key) -> bool {
+/// Takes a key as the answer to the question on the screen, or as a part of it; false if it is none.
+pub(crate) fn answer_by_key(state: &mut State, key: Key) -> bool {
     let Some(question) = pending_question(state) else {
         return false;
     };
-    let answers = question.answers();
-    let given = key.typed();
-    let Some(at) = answers.iter().position(|(c, _)| Some(*c) == given) else {
+    if let Some(choices) = question.choices() {
+        let chosen = choices.into_iter().find(|(c, _)| Some(*c) == key.typed());
+        return chosen.is_some_and(|(_, word)| take_answer(state, word));
+    }
+    let line = &mut state.prediction.typed;
+    let is_started = !line.text().is_empty();
+    let is_digit = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '−');
+    let is_part = match key.typed() {
+        Some(c) => is_digit(c) || is_started && matches!(c, 'e' | '+'),
+        None => is_started && key.is("backspace"),
+    };
+    is_part && line.edit(key)
+}
+
+/// Judges an answer to the question on the screen; false if there is none, or if it is no answer.
+pub(crate) fn take_answer(state: &mut State, answer: &str) -> bool {
+    let (Some(question), Some(subject)) = (pending_question(state), state.subject()) else {
         return false;
     };
-    let subject = state.subject();
-    let right = subject.and_then(|s| question.right(s));
-    state.prediction.revealed = true;
-    state.prediction.asked += 1;
-    if right == Some(at) {
-        state.prediction.right += 1;
-        let Prediction { right, asked, .. } = state.prediction;
-        state.say(format!(
-            "Yes, {}. {right} of {asked} foreseen.",
-            answers[at].1
-        ));
-    } else {
-        let said = right.map_or("there is no answer", |at| answers[at].1);
-        state.say(format!(
-            "It is {said}. Look at the numbers of this step: why?"
-        ));
+    let judged = subject.judge(question, answer);
+    let right = subject.right_answer(question);
+    let judgement = match judged {
+        Ok(judgement) => judgement,
+        Err(sentence) => {
+            state.warn(format!("{}: {sentence}", question.name()));
+            return false;
+        }
+    };
+    state.prediction.typed = TypedLine::default();
+    if !state.prediction.missed {
+        state.prediction.asked += 1;
+        state.prediction.right += u32::from(judgement == Judgement::Right);
+        progress::note(state, question, judgement);
+    }
+    match judgement {
+        Judgement::Right => {
+            let Prediction {
+                right: all, asked, ..
+            } = state.prediction;
+            state.say(format!("Yes, {right}. {all} of {asked} right at once."));
+            show_answer(state);
+        }
+        Judgement::Slip(slip) => {
+            state.prediction.missed = true;
+            let (name, sentence) = (slip.name(), slip.words());
+            state.say(format!(
+                "No: {sentence} ({name}). Try again, or enter shows it."
+            ));
+        }
+        Judgement::Wrong => {
+            state.prediction.missed = true;
+            state.say("No. Try again, or enter shows it.");
+        }
     }
     true
+}
+
+/// Whether an action has to wait since it would change the scene that is asked about: the person is told,
+/// and may do it again.
+pub(crate) fn holds_back(state: &mut State, action: Action) -> bool {
+    let again = state.prediction.warned.take() == Some(action);
+    let asks = state.is_predicting() && state.open_question().is_some();
+    if again || !asks || !changes_scene(action) {
+        return false;
+    }
+    state.prediction.warned = Some(action);
+    let name = action.name();
+    state.say(format!(
+        "{name} would change what you are asked about. Again does it."
+    ));
+    true
+}
+
+fn changes_scene(action: Action) -> bool {
+    use Action::{
+        Add, Delete, Duplicate, Grow, MakeTangent, MoveXMinus, MoveXPlus, MoveYMinus, MoveYPlus,
+        MoveZMinus, MoveZPlus, Redo, Reset, Smaller, TurnBack, TurnOn, Undo,
+    };
+    let of_sphere = matches!(
+        action,
+        Add | Delete | Duplicate | Grow | Smaller | MakeTangent
+    );
+    let moves = matches!(
+        action,
+        MoveXMinus | MoveXPlus | MoveYMinus | MoveYPlus | MoveZMinus | MoveZPlus
+    );
+    let of_history = matches!(action, Undo | Redo | Reset | TurnBack | TurnOn);
+    action.group() == Group::Camera || of_sphere || moves || of_history
 }
 
 /// t of the moving point: where the person put it, else where something is seen, else where
@@ -181,8 +278,9 @@ pub(crate) fn go_to_landmark(state: &mut State, forward: bool) {
     let Landmark { t, what } = &places[at];
     state.at.t = Some(*t);
     let shown = number(*t, Precision::Binary64, Digits::Significant(6));
+    let sign = sign_of_shown(*t, &shown).text();
     let count = places.len();
-    state.say(format!("{} of {count}: t = {shown}, {what}.", at + 1));
+    state.say(format!("{} of {count}: t {sign} {shown}, {what}.", at + 1));
     show_moving_point(state);
 }
 

@@ -371,7 +371,7 @@ impl Explorer {
         self.state.quits_once_saved = false;
         if walk::could_answer(&self.state, key) {
             self.refresh();
-            if walk::answer_prediction(&mut self.state, key) {
+            if walk::answer_by_key(&mut self.state, key) {
                 return;
             }
         }
@@ -444,6 +444,9 @@ impl Explorer {
     pub(crate) fn act(&mut self, action: Action) {
         if acts_on_picture(action) {
             self.refresh();
+        }
+        if walk::holds_back(&mut self.state, action) {
+            return;
         }
         let state = &mut self.state;
         let done = PARTS.iter().any(|act| act(action, state))

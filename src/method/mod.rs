@@ -24,6 +24,7 @@ mod routine;
 mod routine;
 pub(crate) mod simd;
 pub mod source;
+pub mod statement;
 mod surd;
 mod tape;
 mod textbook;

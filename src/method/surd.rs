@@ -330,6 +330,20 @@ impl Surd {
         found
     }
 
+    /// The nearest whole multiple of 10^−places, in units of that; of two, the one farther from zero.
+    pub fn in_decimal_units(&self, places: i64) -> IBig {
+        let (twice, _) = self
+            .times_power_of_ten(places)
+            .shifted(1)
+            .magnitude_in_units(0);
+        let units = IBig::from((twice + UBig::ONE) >> 1);
+        if self.sign() == Ordering::Less {
+            -units
+        } else {
+            units
+        }
+    }
+
     fn times_power_of_ten(&self, power: i64) -> Self {
         let factor = Dyadic::new(IBig::from(10).pow(power.unsigned_abs() as usize), 0);
         let mut scaled = self.clone();

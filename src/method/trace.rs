@@ -20,6 +20,7 @@ pub(super) use build::{A, BB, C, HALF_B, O, OO, RR, StepText, Steps};
 pub use loss::{Loss, LossKind};
 
 use super::format::{self, Shortest};
+use super::statement::in_c;
 use super::surd::Surd;
 use super::truth::Truth;
 use super::{Class, Method, Place, Precision, Solution};
@@ -59,6 +60,23 @@ impl Measured {
     pub fn is_correctly_rounded(&self) -> bool {
         let exact = self.exact.as_ref();
         exact.is_some_and(|exact| exact.round(self.precision) == self.value)
+    }
+
+    /// How far off the number is, in ulps; as a number where the exact value is 0, which has none, and in
+    /// words where it is past the range or no number. None if it is right, or if there is nothing to hold
+    /// it to.
+    pub fn error_text(&self, glyphs: Glyphs) -> Option<String> {
+        let ulps = self.ulps().filter(|&ulps| ulps != 0.0)?;
+        Some(if self.value.is_nan() {
+            "not a number".into()
+        } else if self.value.is_infinite() {
+            "past the range".into()
+        } else if self.exact.as_ref().is_some_and(Surd::is_zero) {
+            let off = format::binary64(self.value.abs(), glyphs).rounded(3);
+            format!("{off} off 0")
+        } else {
+            error_text(ulps, self.precision, glyphs)
+        })
     }
 
     /// The shortest decimal that reads back as the number.
@@ -136,10 +154,19 @@ impl Quantity {
     /// What it would be without rounding, and how far off it is; nothing if it is right, or if there is no
     /// such thing.
     pub fn error_sentence(&self, digits: usize, glyphs: Glyphs) -> Option<String> {
-        let ulps = self.ulps().filter(|&ulps| ulps != 0.0)?;
+        self.ulps().filter(|&ulps| ulps != 0.0)?;
         let exact = self.exact_text(digits, glyphs)?;
-        let off = error_text(ulps, self.precision(), glyphs);
-        Some(format!("{exact}, {off} off"))
+        let size = |part: &&Measured| part.ulps().unwrap_or(0.0);
+        let worst = self
+            .parts()
+            .iter()
+            .max_by(|x, y| size(x).total_cmp(&size(y)))?;
+        let off = worst.error_text(glyphs)?;
+        Some(if off.ends_with("ulp") || off.ends_with("ulp64") {
+            format!("{exact}, {off} off")
+        } else {
+            format!("{exact}: {off}")
+        })
     }
 
     fn join(&self, text: impl Fn(&Measured) -> String) -> String {
@@ -175,6 +202,14 @@ pub struct TraceStep {
 }
 
 impl TraceStep {
+    /// The line of the program as a whole statement in C; a routine's own line as it is.
+    pub fn statement(&self) -> String {
+        match &self.code {
+            Cow::Borrowed(line) => in_c(line, self.result.precision()),
+            Cow::Owned(line) => line.clone(),
+        }
+    }
+
     /// The greatest number of bits that one operation of this step lost.
     pub fn bits_lost(&self) -> u32 {
         self.losses.iter().map(Loss::bits).max().unwrap_or(0)
@@ -325,12 +360,14 @@ pub fn write(
     for (i, step) in trace.steps.iter().enumerate() {
         let symbol = glyphs.spell(&step.symbol);
         let numbers = glyphs.spell(&step.numbers);
-        let indent = " ".repeat(symbol.chars().count());
         writeln!(out, "{symbol} = {}", glyphs.spell(&step.formula))?;
-        writeln!(out, "{indent} = {numbers}")?;
-        writeln!(out, "{indent} = {}", step.result.text(glyphs))?;
+        let result = step.result.text(glyphs);
+        writeln!(out, "    {numbers} {} {result}", glyphs.spell("→"))?;
         writeln!(out, "    {}", glyphs.spell(&step.why))?;
-        writeln!(out, "    {}", step.code)?;
+        let statement = step.statement();
+        if !statement.is_empty() {
+            writeln!(out, "    {statement}")?;
+        }
         if let Some(error) = step.result.error_sentence(digits, glyphs) {
             writeln!(out, "    exactly {error}")?;
         } else if step.result.ulps().is_none() {
@@ -599,7 +636,7 @@ mod tests {
         assert_eq!(lost.steps[lost.first_heavy_loss().unwrap()].symbol, "C");
         assert_eq!(
             said(&lost, "Δ"),
-            ["B^2 and 4AC agree in all 24 bits; none is left"]
+            ["B^2 and 4AC: all 24 leading bits cancel, none is left"]
         );
         assert_eq!(
             lost.verdict(Glyphs::Ascii).unwrap(),
@@ -627,7 +664,7 @@ mod tests {
         );
         assert_eq!(
             said(&ground, "C"),
-            ["|o|^2 and r^2 agree in 8 of 24 bits; 16 are left"]
+            ["|o|^2 and r^2: 8 leading bits cancel, 16 are left"]
         );
         // The exact root, not the one that the rounded branch would lead to.
         let near = ground.near.clone().unwrap();
@@ -677,7 +714,7 @@ mod tests {
         );
         let lost = &ground.step("near₆₄").unwrap().losses[0];
         let said = lost.sentence(Glyphs::Unicode);
-        assert!(said.starts_with("−b and √D agree in 2"), "{said}");
+        assert!(said.starts_with("−b and √D: 2"), "{said}");
         assert_eq!(unrounded.numbers, "tangent, near 3, far 3");
         let tilted = trace(
             Method::Exact,

@@ -7,6 +7,7 @@ use serde::{Serialize, Serializer};
 
 use crate::geometry::{Ray, Sphere};
 use crate::method::format::{self};
+
 use crate::method::trace::{Loss, LossKind, Measured, Trace, TraceStep};
 use crate::method::{Class, Place, Precision, Solution, Surd};
 use crate::report;
@@ -135,7 +136,7 @@ struct StepOut<'a> {
     precision: &'static str,
     result: Vec<MeasuredOut>,
     why: &'a str,
-    code: &'a str,
+    code: String,
     bits_lost: u32,
     losses: Vec<LossOut<'a>>,
 }
@@ -150,7 +151,7 @@ impl<'a> StepOut<'a> {
             precision: precision(step.result.precision()),
             result: parts.iter().map(MeasuredOut::new).collect(),
             why: &step.why,
-            code: &step.code,
+            code: step.statement(),
             bits_lost: step.bits_lost(),
             losses: step.losses.iter().map(LossOut::new).collect(),
         }

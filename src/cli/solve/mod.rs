@@ -8,6 +8,7 @@ mod single;
 use std::path::PathBuf;
 
 use super::failure::{DONE, INVALID};
+use super::lens::LensFlag;
 use super::{Failure, MethodName, Outcome, method_name, write_out};
 use crate::method::Method;
 
@@ -36,6 +37,10 @@ pub(super) struct Solve {
     /// for standard input
     #[arg(long, value_name = "FILE", conflicts_with_all = ["ray", "sphere", "format"])]
     batch: Option<PathBuf>,
+    // Before the method: it looks at whether that was given.
+    #[command(flatten)]
+    lens: LensFlag,
+
     /// The way to evaluate the quadratic
     #[arg(long, value_name = "METHOD", env = "RAYSCOPE_METHOD", hide_env_values = true, value_parser = method_name(), default_value = Method::default().name())]
     method: MethodName,
@@ -63,8 +68,9 @@ pub(super) fn run(arguments: &Solve) -> Outcome {
             batch::Validity::Some => Ok(INVALID),
         },
         (None, Some(ray), Some(sphere)) => {
+            let (lens, format) = (arguments.lens.chosen(), arguments.format);
             let text =
-                single::written(ray, sphere, method, arguments.format).map_err(Failure::invalid)?;
+                single::written((ray, sphere), (lens, method), format).map_err(Failure::invalid)?;
             write_out(&text)
         }
         // The parser asks for the two unless there is a batch.

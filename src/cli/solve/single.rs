@@ -3,28 +3,43 @@
 use std::fmt::{self, Write as _};
 
 use super::{DerivationFormat, input, json};
+use crate::explain::{self, Lens, Reading};
 use crate::geometry::{Ray, Sphere};
 use crate::method::format::binary32;
 use crate::method::trace::{self, Measured, Trace};
 use crate::method::{Class, Method};
 use crate::text::Glyphs;
 
+/// Columns of the text.
+const COLUMNS: usize = 80;
 /// Digits of exact values in the text.
 const DIGITS: usize = 25;
 
 /// The derivation of one intersection, or what is wrong with the numbers.
 pub(super) fn written(
-    ray: &str,
-    sphere: &str,
-    method: Method,
+    (ray, sphere): (&str, &str),
+    (lens, method): (Lens, Method),
     format: DerivationFormat,
 ) -> Result<String, String> {
     let (ray, sphere) = input::ray_and_sphere(ray, sphere)?;
     let trace = method.trace(&ray, &sphere);
-    Ok(match format {
-        DerivationFormat::Text => text(&ray, &sphere, &trace),
-        DerivationFormat::Json => json::text(&ray, &sphere, &trace),
+    Ok(match (format, lens) {
+        (DerivationFormat::Json, _) => json::text(&ray, &sphere, &trace),
+        (DerivationFormat::Text, Lens::Machine) => text(&ray, &sphere, &trace),
+        (DerivationFormat::Text, Lens::Mathematics) => mathematics(&ray, &sphere, method),
     })
+}
+
+/// The sheet of the mathematics; a line more where the method is wrong about it.
+fn mathematics(ray: &Ray, sphere: &Sphere, method: Method) -> String {
+    let read = |method| Reading::alone(*ray, *sphere, method);
+    let exact = read(Method::Exact);
+    let steps = explain::sheet(Lens::Mathematics, &exact, None, None, None);
+    let wrong = read(method).disagreement(&exact);
+    let wrong = wrong.map_or(String::new(), |wrong| {
+        format!("{wrong}: --lens machine shows why\n")
+    });
+    explain::sheet_text(&steps, COLUMNS) + &wrong
 }
 
 fn text(ray: &Ray, sphere: &Sphere, trace: &Trace) -> String {
@@ -77,16 +92,16 @@ fn write_answer(out: &mut String, trace: &Trace, glyphs: Glyphs) -> fmt::Result 
         Some(root) => {
             let value = root.shortest(glyphs);
             match root.ulps() {
-                Some(0.0) => writeln!(out, "{name} = {value}, exactly"),
-                Some(ulps) => {
+                Some(0.0) => writeln!(out, "{name} → {value}, exactly"),
+                Some(_) => {
                     let exact = root.exact_text(DIGITS, glyphs).unwrap_or_default();
                     if root.is_correctly_rounded() {
-                        return writeln!(out, "{name} = {value}, {exact} rounded once");
+                        return writeln!(out, "{name} → {value}, {exact} rounded once");
                     }
-                    let off = trace::error_text(ulps, root.precision, glyphs);
-                    writeln!(out, "{name} = {value}, {off} from {exact}")
+                    let off = root.error_text(glyphs).unwrap_or_default();
+                    writeln!(out, "{name} → {value}, {off} from {exact}")
                 }
-                None => writeln!(out, "{name} = {value}, but there is no such root"),
+                None => writeln!(out, "{name} → {value}, but there is no such root"),
             }
         }
     };
@@ -96,7 +111,7 @@ fn write_answer(out: &mut String, trace: &Trace, glyphs: Glyphs) -> fmt::Result 
         (Some(place), Some(t)) => {
             writeln!(
                 out,
-                "{}: the ray sees it at t = {}",
+                "{}: the ray sees it at t {}",
                 place.name(),
                 binary32(t, glyphs)
             )?;

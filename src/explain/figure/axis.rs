@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   side   gap        main         gap   side
-//! ├──p0──┤~/~/├───────B──B′───────┤
+//! ├──p0──┤~/~/├───────P₁──P₂──────┤
 //! ```
 
 use super::section::{Anchor, LinePoint, Section};

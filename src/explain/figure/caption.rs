@@ -1,7 +1,7 @@
 //! The lines under a figure: what its letters stand for, in numbers.
 
 use super::section::Section;
-use crate::explain::{Digits, Line, Role, Subject, number};
+use crate::explain::{Digits, Line, Role, Subject, number, sign_of_shown};
 use crate::method::Precision;
 use crate::text::Glyphs;
 
@@ -117,6 +117,19 @@ pub(super) fn rounded(value: f64, digits: usize) -> String {
 /// A number with six digits.
 pub(super) fn show(value: f64) -> String {
     rounded(value, 6)
+}
+
+/// A letter and the number that is shown for it, joined as they may be.
+pub(super) fn joined(letter: &str, value: f64, shown: &str) -> String {
+    let sign = sign_of_shown(value, shown).text();
+    format!("{letter} {sign} {shown}")
+}
+
+/// The smaller root, the foot and the larger root as `t = …`.
+pub(super) fn times_joined(section: &Section) -> [String; 3] {
+    let values = [section.near, section.foot, section.far].map(|s| s / section.speed + 0.0);
+    let shown = times(section);
+    [0, 1, 2].map(|i| joined("t", values[i], &shown[i]))
 }
 
 /// The smaller root, the foot and the larger root in t, with as many digits as tell them apart.

@@ -19,6 +19,8 @@ pub(super) fn case(o: [f32; 3], d: [f32; 3], c: [f32; 3], r: f32) -> (Subject, R
         coefficients: Method::Textbook.coefficients(&ray, &sphere),
         trace: Method::Textbook.trace(&ray, &sphere),
         solution: Truth::new(&ray, &sphere).solution(),
+        worked: std::sync::OnceLock::new(),
+        ray,
         sight: None,
     };
     (subject, ray)

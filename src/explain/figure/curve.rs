@@ -10,7 +10,9 @@
 
 use super::axis::{Axis, AxisPosition, DrawingArea, Stretch};
 use super::canvas::{Canvas, Dash, FigureInk};
-use super::caption::{Caption, caption_of, caption_room, rounded, show, times};
+use super::caption::{
+    Caption, caption_of, caption_room, joined, rounded, show, times, times_joined,
+};
 use super::mark::{Mark, Sign};
 use super::section::{Anchor, LinePoint, Section};
 use crate::explain::{Line, Role, Subject};
@@ -288,14 +290,14 @@ impl CurvePlot {
             mark(name, LinePoint::At(anchor), sign, FigureInk::Root)
         };
         let point = |name, anchor, sign| mark(name, LinePoint::At(anchor), sign, FigureInk::Point);
-        let mut marks = vec![point("C", Anchor::Start, Sign::Eye)];
+        let mut marks = vec![point("f(0)", Anchor::Start, Sign::Eye)];
         match section.class {
             Class::Secant | Class::Hit => marks.extend([
-                root("B", Anchor::Near),
-                root("B′", Anchor::Far),
+                root("P₁", Anchor::Near),
+                root("P₂", Anchor::Far),
                 point("V", Anchor::Foot, Sign::Cross),
             ]),
-            Class::Tangent => marks.push(root("B = B′", Anchor::Near)),
+            Class::Tangent => marks.push(root("P₁ = P₂", Anchor::Near)),
             Class::Miss | Class::Nan => marks.push(point("V", Anchor::Foot, Sign::Cross)),
         }
         if t.is_finite() {
@@ -361,26 +363,28 @@ fn caption(section: &Section, subject: &Subject, t: f64, glyphs: Glyphs) -> Capt
     let mut caption = caption_of(section, subject, glyphs);
     let (sign, polynomial) = polynomial(section);
     caption.add("f(t)", sign, &polynomial);
-    let [near, foot, far] = times(section);
-    let lowest = show(section.power(Anchor::Foot, 0.0));
+    let [near, foot, far] = times_joined(section);
+    let lowest = section.power(Anchor::Foot, 0.0);
+    let lowest = joined("−Δ/4A", lowest, &show(lowest));
     match section.class {
         Class::Secant | Class::Hit => {
-            caption.add("B", "at", &format!("t = {near}"));
-            caption.add("B′", "at", &format!("t = {far}"));
-            caption.add("V", "lowest", &format!("f({foot}) = −Δ/4A = {lowest}"));
+            caption.add("P₁", "at", &near);
+            caption.add("P₂", "at", &far);
+            caption.add("V", "lowest", &format!("at {foot}: {lowest}"));
         }
         Class::Tangent => {
-            caption.add("B = B′", "touches 0 at", &format!("t = {near}"));
+            caption.add("P₁ = P₂", "touches 0 at", &near);
             caption.add("", "", "Δ = 0");
         }
         Class::Miss | Class::Nan => {
-            caption.add("V", "lowest", &format!("f({foot}) = −Δ/4A = {lowest}"));
+            caption.add("V", "lowest", &format!("at {foot}: {lowest}"));
             caption.say(Role::Plain, "above 0: no root");
         }
     }
     if t.is_finite() {
         let f = section.value(section.spot(t));
-        caption.add("p", "", &format!("f({}) = {}", show(t), show(f)));
+        let (at, f_text) = (joined("t", t, &show(t)), joined("f", f, &show(f)));
+        caption.add("p", "at", &format!("{at}: {f_text}"));
         if f != 0.0
             && let Some(why) = not_zero(subject, t)
         {

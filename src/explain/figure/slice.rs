@@ -11,7 +11,7 @@
 
 use super::axis::{AxisPosition, Piece};
 use super::canvas::{Canvas, Dash, Dot, FigureInk};
-use super::caption::{Caption, caption_of, caption_room, rounded, show, times};
+use super::caption::{Caption, caption_of, caption_room, joined, rounded, show, times_joined};
 use super::mark::{Mark, Sign};
 use super::section::{Anchor, LinePoint, Section};
 use super::view::SliceView;
@@ -284,9 +284,9 @@ impl Drawing {
         let foot = LinePoint::At(Anchor::Foot);
         let mut marks = vec![point("p0", LinePoint::At(Anchor::Start), 0.0, Sign::Eye)];
         match section.class {
-            Class::Tangent => marks.push(root("B = B′", Anchor::Near)),
+            Class::Tangent => marks.push(root("P₁ = P₂", Anchor::Near)),
             Class::Secant | Class::Hit => {
-                marks.extend([root("B", Anchor::Near), root("B′", Anchor::Far)]);
+                marks.extend([root("P₁", Anchor::Near), root("P₂", Anchor::Far)]);
             }
             Class::Miss | Class::Nan => marks.extend(self.touching_mark()),
         }
@@ -428,22 +428,26 @@ fn caption(
     glyphs: Glyphs,
 ) -> Caption {
     let mut caption = caption_of(section, subject, glyphs);
-    let [near, foot, far] = times(section).map(|t| format!("t = {t}"));
+    let [near, foot, far] = times_joined(section);
     match section.class {
         Class::Secant | Class::Hit => {
-            caption.add("B", "in at", &near);
-            caption.add("B′", "out at", &far);
+            caption.add("P₁", "in at", &near);
+            caption.add("P₂", "out at", &far);
             caption.add("q", "closest to c:", &foot);
             caption.add("", "", &distance(section));
         }
         Class::Tangent => {
-            caption.add("B = B′", "touches at", &near);
-            caption.add("", "", &format!("|B−c| = r = {}", show(section.radius)));
+            caption.add("P₁ = P₂", "touches at", &near);
+            caption.add(
+                "",
+                "",
+                &joined("|P₁−c| = r", section.radius, &show(section.radius)),
+            );
         }
         Class::Miss | Class::Nan => {
             caption.add("q", "closest to c:", &foot);
             caption.add("", "", &distance(section));
-            caption.add("qT", "tangent: √(−Δ)/2A =", &tangent(section));
+            caption.add("qT", "tangent: √(−Δ)/2A:", &tangent(section));
         }
     }
     if let Some(words) = place(section) {
@@ -452,8 +456,8 @@ fn caption(
     if t.is_finite() {
         let p = ray.origin.as_dvec3() + t * ray.direction.as_dvec3();
         let p = vector(p.as_vec3(), Digits::Significant(5));
-        let t = show(t);
-        caption.add("p", "at", &format!("t = {t}: t·d + p0 = ({p})"));
+        let t = joined("t", t, &show(t));
+        caption.add("p", "at", &format!("{t}: ({p})"));
     }
     let altitude = section.altitude();
     if altitude.abs() < 0.02 * section.radius && altitude != 0.0 {
@@ -489,9 +493,9 @@ fn place(section: &Section) -> Option<&'static str> {
     } else if far == 0.0 {
         Some("p0 is on the surface; the ray leaves it")
     } else if near == 0.0 {
-        Some("p0 is on the surface; only B′ lies ahead")
+        Some("p0 is on the surface; only P₂ lies ahead")
     } else if near < 0.0 {
-        Some("p0 is inside; only B′ lies ahead")
+        Some("p0 is inside; only P₂ lies ahead")
     } else {
         None
     }
@@ -509,9 +513,16 @@ fn distance(section: &Section) -> String {
         let depth = section.depth();
         let side = if depth > 0.0 { "−" } else { "+" };
         let depth = rounded(depth.abs(), 3);
-        return format!("|q−c| = r {side} {depth}, r = {r}");
+        return format!(
+            "|q−c| ≈ r {side} {depth}, {}",
+            joined("r", section.radius, &r)
+        );
     }
-    format!("|q−c| = {q} {sign} r = {r}")
+    format!(
+        "{} {sign} {}",
+        joined("|q−c|", section.distance, &q),
+        joined("r", section.radius, &r)
+    )
 }
 
 /// The length of the tangent, in t and, where that differs, in lengths.
@@ -520,7 +531,7 @@ fn tangent(section: &Section) -> String {
     if section.speed == 1.0 {
         return length;
     }
-    format!("{} · |d| = {length}", show(section.half / section.speed))
+    format!("{} · |d|, {length}", show(section.half / section.speed))
 }
 
 #[cfg(test)]

@@ -127,7 +127,16 @@ impl Pen<'_> {
                 Role::Value => text.width().max(LONG),
                 _ => text.width(),
             };
-            let width: usize = spelt.iter().map(room).sum();
+            // An equation has been laid out for its room.
+            let is_table = line
+                .spans
+                .first()
+                .is_some_and(|span| span.role == Role::Label);
+            let width: usize = if is_table {
+                spelt.iter().map(room).sum()
+            } else {
+                spelt.iter().map(|(text, _)| text.width()).sum()
+            };
             if width > usize::from(area.width) {
                 spelt = self.spelt(line, true);
             }

@@ -1,6 +1,6 @@
 //! The picture, the reading under the cursor and its derivation, and what each was made from.
 
-use crate::explain::{Reading, Step};
+use crate::explain::{Lens, Reading, Step};
 use crate::method::Method;
 use crate::render::{Allowance, Frame, Image, Look, View};
 use crate::scene::{PixelShape, Rays, Scene, Size};
@@ -22,7 +22,10 @@ pub(crate) struct Picture {
     pub(crate) offset: (u32, u32),
     /// Columns and rows of the picture, and the room, that the offset is for.
     scrolled_in: Option<(u32, u32, (u16, u16))>,
+    /// What the chosen method finds.
     pub(crate) reading: Option<Reading>,
+    /// What there is to find, if another method is chosen than `exact`.
+    pub(crate) exact_reading: Option<Reading>,
     pub(crate) reading_key: Option<ReadingKey>,
     /// The derivation of the reading.
     pub(crate) steps: Vec<Step>,
@@ -64,6 +67,7 @@ pub(crate) struct ReadingKey {
     pub(crate) cursor: (u32, u32),
     pub(crate) selected: Option<usize>,
     pub(crate) chosen: Option<usize>,
+    pub(crate) lens: Lens,
 }
 
 impl Picture {
@@ -80,6 +84,7 @@ impl Picture {
             offset: (0, 0),
             scrolled_in: None,
             reading: None,
+            exact_reading: None,
             reading_key: None,
             steps: Vec::new(),
             steps_before: Vec::new(),
@@ -161,7 +166,7 @@ impl Picture {
         self.image.make_room((0, 0));
         (self.key, self.reading_key) = (None, None);
         // It speaks of spheres that the next scene may not have.
-        self.reading = None;
+        (self.reading, self.exact_reading) = (None, None);
         self.steps.clear();
     }
 

@@ -148,6 +148,10 @@ fn mark_edges(state: &State, pen: &mut Pen<'_>, area: Rect, shown: (u16, u16), e
         (top + u32::from(shown.1) < image.rows, below, bottom, "↓"),
     ] {
         if more {
+            let arrow = match (pen.glyphs, arrow) {
+                (Glyphs::Ascii, "→") => ">",
+                _ => arrow,
+            };
             pen.text(x, y, 1, arrow, style);
         }
     }

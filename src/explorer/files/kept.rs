@@ -119,6 +119,18 @@ impl KeptFolder {
     }
 }
 
+/// Writes a file that nobody else may read, whole or not at all, in a folder that is made if need be.
+pub(crate) fn write_private(path: &Path, text: &str) -> io::Result<()> {
+    let folder = path.parent().unwrap_or(Path::new("."));
+    create_private_folder(folder)?;
+    let mut file = tempfile::Builder::new()
+        .prefix(TEMPORARY)
+        .tempfile_in(folder)?;
+    file.write_all(text.as_bytes())?;
+    file.persist(path)?;
+    Ok(())
+}
+
 /// The number that a kept file's name begins with.
 fn number(path: &Path) -> u128 {
     let name = path.file_name().unwrap_or_default().to_string_lossy();

@@ -76,6 +76,22 @@ impl Workplace {
         })
     }
 
+    /// Where it is kept how predictions went.
+    pub(crate) fn progress_file(&self) -> Option<PathBuf> {
+        let person: String = self
+            .person
+            .chars()
+            .filter(char::is_ascii_alphanumeric)
+            .collect();
+        let tail = &person[person.len().saturating_sub(32)..];
+        let name = if tail.is_empty() {
+            "progress.json".to_owned()
+        } else {
+            format!("progress-{tail}.json")
+        };
+        Some(self.state.as_ref()?.join(name))
+    }
+
     /// No place but a folder to keep unsaved work in.
     #[cfg(test)]
     pub(crate) fn keeping_in(state: &Path) -> Self {

@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use crate::explain::{self, Line};
 use crate::explorer::action::Action;
 use crate::explorer::panel::Panel;
-use crate::explorer::panel::component::{Component, no_spheres, show};
+use crate::explorer::panel::component::{Component, machine_title, no_spheres, show};
 use crate::explorer::state::State;
 
 #[derive(Debug, Default)]
@@ -14,14 +14,18 @@ pub(crate) struct BitsPanel;
 impl Component for BitsPanel {
     /// The bits of the number that the step gives; for a step without one, of Δ.
     fn text(&self, state: &State, room: Rect) -> (String, Vec<Line>) {
-        let step = state.current_step().filter(|s| s.number.is_some());
-        let of_step = step.and_then(|s| Some((s.name.as_str(), s.number.as_ref()?)));
-        let of_subject = || Some(("Δ", &state.subject()?.trace.discriminant));
+        let subject = || state.machine_reading()?.subject.as_ref();
+        let of_step = state.current_step().and_then(|step| {
+            let name = step.name.as_str();
+            let traced = || subject()?.trace.step(name)?.result.parts().first();
+            Some((name, step.number.as_ref().or_else(traced)?))
+        });
+        let of_subject = || Some(("Δ", &subject()?.trace.discriminant));
         let Some((name, number)) = of_step.or_else(of_subject) else {
             return (Panel::Bits.name().into(), no_spheres());
         };
         let lines = explain::measured_bits(name, number, room.width.into());
-        (format!("bits of {name}"), lines)
+        (machine_title(state, &format!("bits of {name}")), lines)
     }
 
     fn foot(&self, _: &State) -> String {

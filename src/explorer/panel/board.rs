@@ -10,6 +10,7 @@ use crate::explorer::draw::theme::Theme;
 use crate::explorer::panel::steps;
 use crate::explorer::state::State;
 use crate::explorer::walk;
+use crate::text;
 
 /// One step as large as the screen allows; its answer hidden until the key.
 pub(crate) fn draw(state: &State, pen: &mut Pen<'_>, area: Rect) {
@@ -24,25 +25,46 @@ pub(crate) fn draw(state: &State, pen: &mut Pen<'_>, area: Rect) {
     };
     pen.frame(area, &title, foot);
     let room = text_room(area);
-    let result = if state.is_hidden() { "?" } else { &step.result };
-    // The result is what the back row must read: it has the larger part.
-    let y = large::draw(pen, room, room.y + 1, room.height / 4, &step.formula);
-    let y = large::draw(pen, room, y + 1, room.height / 2, &format!("= {result}"));
+    let hidden = state.is_hidden();
+    let mut large_lines: Vec<String> = Vec::new();
+    for equation in &step.equations {
+        large_lines.push(equation.formula.clone());
+        let is_given = equation.ways.is_empty();
+        if !is_given && !hidden {
+            let way = equation.ways.last().and_then(|way| way.last());
+            large_lines.extend(way.map(|link| format!("{} {}", link.sign.text(), link.text)));
+        } else if !is_given {
+            large_lines.push("= ?".into());
+        }
+    }
     let question = walk::pending_question(state);
-    let answers = question.map_or_else(String::new, StepQuestion::keys);
+    let asked = question.map_or_else(String::new, |question| question.text().to_owned());
+    let hint = question.map_or_else(String::new, StepQuestion::hint);
+    let outcome = if hidden {
+        String::new()
+    } else {
+        step.outcome.join("; ")
+    };
     let small = [
-        (question.map_or("", StepQuestion::text), Theme::strong()),
-        (answers.as_str(), Theme::strong()),
-        (step.numbers_beside(state.is_hidden()), Theme::faint()),
+        (outcome.as_str(), Theme::strong()),
+        (asked.as_str(), Theme::strong()),
+        (hint.as_str(), Theme::strong()),
         (step.why.as_str(), Theme::plain()),
     ];
-    let mut y = y + 1;
-    for (text, style) in small.into_iter().filter(|(text, _)| !text.is_empty()) {
+    let words = small.iter().filter(|(text, _)| !text.is_empty());
+    let words: Vec<_> = words.collect();
+    let below: usize = words
+        .iter()
+        .map(|(text, _)| text::wrap(text, room.width.into()).len())
+        .sum();
+    let rows = room.height.saturating_sub(below as u16 + 1);
+    let mut y = large::draw(pen, room, rows, &large_lines) + 1;
+    for (text, style) in words {
         let below = Rect {
             y,
             height: room.bottom().saturating_sub(y),
             ..room
         };
-        y = pen.words(below, text, style);
+        y = pen.words(below, text, *style);
     }
 }

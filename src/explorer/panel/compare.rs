@@ -5,7 +5,7 @@ use ratatui::layout::Rect;
 use crate::explain::{self, Line, Subject};
 use crate::explorer::action::Action;
 use crate::explorer::panel::Panel;
-use crate::explorer::panel::component::{Component, no_spheres, show};
+use crate::explorer::panel::component::{Component, machine_title, no_spheres, show};
 use crate::explorer::state::{State, turn};
 
 #[derive(Debug, Default)]
@@ -13,10 +13,11 @@ pub(crate) struct ComparePanel;
 
 impl Component for ComparePanel {
     fn text(&self, state: &State, room: Rect) -> (String, Vec<Line>) {
-        let Some(reading) = state.reading() else {
+        let Some(reading) = state.machine_reading() else {
             return Default::default();
         };
         let title = format!("{} beside {}", reading.method, state.other_method());
+        let title = machine_title(state, &title);
         let Some(Subject { trace, sphere, .. }) = &reading.subject else {
             return (title, no_spheres());
         };

@@ -4,7 +4,7 @@ use std::fmt::Debug;
 
 use ratatui::layout::Rect;
 
-use crate::explain::Line;
+use crate::explain::{Lens, Line};
 use crate::explorer::action::Action;
 use crate::explorer::panel::Panel;
 use crate::explorer::state::State;
@@ -50,6 +50,14 @@ pub(crate) trait Component: Debug {
 const AS_WORDS: (u16, u16) = (76, 200);
 /// Room for a figure.
 pub(crate) const AS_FIGURE: (u16, u16) = (76, 20);
+
+/// The title of a panel that is of the machine whatever the lens: it says so through the other one.
+pub(crate) fn machine_title(state: &State, title: &str) -> String {
+    match state.at.lens {
+        Lens::Mathematics => format!("machine: {title}"),
+        Lens::Machine => title.to_owned(),
+    }
+}
 
 /// What a panel says where there is nothing to say anything about.
 pub(crate) fn no_spheres() -> Vec<Line> {

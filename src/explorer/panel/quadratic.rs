@@ -6,6 +6,7 @@ use crate::explain::{self, Line};
 use crate::explorer::action::Action;
 use crate::explorer::panel::Panel;
 use crate::explorer::panel::component::{Component, show};
+use crate::explorer::panel::steps::disagreement_lines;
 use crate::explorer::state::State;
 
 #[derive(Debug, Default)]
@@ -17,8 +18,14 @@ impl Component for QuadraticPanel {
             return Default::default();
         };
         let (x, y) = reading.pixel;
-        let glyphs = state.options.glyphs;
-        let lines = explain::lines(reading, room.width.into(), state.digits(), glyphs);
+        let mut lines = explain::lines(
+            state.at.lens,
+            reading,
+            room.width.into(),
+            state.digits(),
+            state.options.glyphs,
+        );
+        lines.extend(disagreement_lines(state, room.width.into()));
         (format!("ray of pixel ({x}, {y})"), lines)
     }
 

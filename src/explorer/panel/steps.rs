@@ -2,61 +2,53 @@
 
 use ratatui::layout::Rect;
 
-use crate::explain::{self, Line, StepLook};
+use crate::explain::{self, Line, Role, SheetLook};
 use crate::explorer::action::Action;
 use crate::explorer::panel::Panel;
 use crate::explorer::panel::component::{Component, no_spheres, show};
 use crate::explorer::state::{Prediction, State};
 use crate::explorer::walk;
+use crate::text::wrap;
 
 #[derive(Debug, Default)]
 pub(crate) struct StepsPanel;
 
 impl Component for StepsPanel {
-    /// The step, and under it the list of all steps, which always stays.
+    /// The sheet as far as it has grown.
     fn text(&self, state: &State, room: Rect) -> (String, Vec<Line>) {
-        let steps = &state.picture.steps;
-        let Some(step) = state.current_step() else {
+        if state.current_step().is_none() {
             return (Panel::Steps.name().into(), no_spheres());
-        };
+        }
         let glyphs = state.options.glyphs;
-        let step = step.spelt(glyphs);
-        let spelt: Vec<_> = steps.iter().map(|step| step.spelt(glyphs)).collect();
-        let at = state.at.step.min(steps.len() - 1);
-        let width = room.width.into();
-        let foresight = !state.is_predicting();
-        let list = explain::step_list(&spelt, at, &state.picture.changed, foresight, width);
-        let look = StepLook {
-            hidden: state.is_hidden(),
-            changed: state.picture.changed.get(at).copied().unwrap_or(false),
-        };
-        let mut lines = explain::step_lines(&step, width, look);
-        if let Some(question) = walk::pending_question(state) {
-            lines.extend(explain::question_lines(question, width, glyphs));
-        }
-        if !look.hidden {
-            lines.extend(explain::step_words(std::slice::from_ref(&step), width));
-        }
-        let space = usize::from(room.height).saturating_sub(list.len() + 1);
-        let mut lines = explain::fit(lines, space);
-        if lines.len() < space {
-            lines.resize(space, Line::default());
-        }
-        lines.push(Line::default());
-        lines.extend(list);
+        let steps: Vec<_> = state
+            .picture
+            .steps
+            .iter()
+            .map(|step| step.spelt(glyphs))
+            .collect();
+        let (width, height) = (usize::from(room.width), usize::from(room.height));
+        let wrong = disagreement_lines(state, width);
+        let typed = typed_line(state);
+        let below = wrong.len() + usize::from(typed.is_some());
+        let mut lines =
+            explain::sheet_lines(&steps, look(state), width, height.saturating_sub(below));
+        lines.extend(typed);
+        lines.extend(wrong);
         (title(state), lines)
     }
 
     fn foot(&self, state: &State) -> String {
         let Prediction {
             on, right, asked, ..
-        } = state.prediction;
-        if state.is_hidden() && walk::pending_question(state).is_none() {
+        } = &state.prediction;
+        if state.open_question().is_some() {
+            "enter: answer, or show it".into()
+        } else if state.is_hidden() {
             "enter: the answer".into()
-        } else if on && asked > 0 {
-            format!("{right} of {asked} foreseen")
+        } else if *on && *asked > 0 {
+            format!("{right} of {asked} right at once")
         } else {
-            ", . step  < > ends".into()
+            "enter next  , back".into()
         }
     }
 
@@ -75,19 +67,47 @@ impl Component for StepsPanel {
     }
 }
 
-/// Which step of how many; while results are hidden, the number of those that follow would give
-/// away how it comes out.
+/// How the sheet is shown now.
+pub(crate) fn look(state: &State) -> SheetLook<'_> {
+    SheetLook {
+        current: state.at.step,
+        hidden: state.is_hidden(),
+        question: state.open_question(),
+        changed: &state.picture.changed,
+        glyphs: state.options.glyphs,
+    }
+}
+
+/// The answer that is being typed.
+fn typed_line(state: &State) -> Option<Line> {
+    let question = state.open_question()?;
+    let text = state.prediction.typed.text();
+    let is_typed = question.choices().is_none();
+    is_typed.then(|| Line::of(Role::Current, format!("   {} = {text}_", question.name())))
+}
+
+/// Where the chosen method is wrong at this pixel: what is wrong, and the key that shows why.
+pub(crate) fn disagreement_lines(state: &State, width: usize) -> Vec<Line> {
+    let wrong = state.disagreement().filter(|_| !state.is_predicting());
+    wrong.map_or_else(Vec::new, |wrong| {
+        let lines = wrap(&format!("{wrong}: L shows why"), width).into_iter();
+        lines.map(|line| Line::of(Role::Warning, line)).collect()
+    })
+}
+
+/// Through which lens, which pixel, and how far the sheet has grown; while results are hidden, the
+/// number of those that follow would give away how it comes out.
 pub(crate) fn title(state: &State) -> String {
-    let Some(step) = state.current_step() else {
+    let (Some(step), Some(reading)) = (state.current_step(), state.reading()) else {
         return "steps".into();
     };
     let count = state.picture.steps.len();
     let number = (state.at.step + 1).min(count);
-    let hides = state.is_predicting() || state.is_hidden();
-    let of = if hides {
+    let of = if state.is_predicting() || state.is_hidden() {
         String::new()
     } else {
         format!(" of {count}")
     };
-    format!("step {number}{of}: {}", step.name)
+    let (x, y) = reading.pixel;
+    format!("step {number}{of}: {} at ({x}, {y})", step.name)
 }

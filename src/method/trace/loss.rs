@@ -62,12 +62,12 @@ impl Loss {
         let of = self.of;
         match self.kind {
             LossKind::Cancelled { bits } if bits >= of => {
-                format!("{x} and {y} agree in all {of} bits; none is left")
+                format!("{x} and {y}: all {of} leading bits cancel, none is left")
             }
             LossKind::Cancelled { bits } => {
                 let left = of - bits;
                 let verb = if left == 1 { "is" } else { "are" };
-                format!("{x} and {y} agree in {bits} of {of} bits; {left} {verb} left")
+                format!("{x} and {y}: {bits} leading bits cancel, {left} {verb} left")
             }
             LossKind::Absorbed { kept: 0 } => format!("{y} vanishes beside {x}"),
             LossKind::Absorbed { kept } => {

@@ -2,14 +2,16 @@
 
 use glam::DVec3;
 
-use super::{Step, bracketed, n32, n64, v3};
+use super::machine::{MachineStep, bracketed, n32, n64, v3};
 use crate::explain::{Reading, Subject};
 use crate::scene::{Rays, Scene};
 
-/// What stands in the place of code for a step that no program does.
-const ON_PAPER: &str = "(done on paper, once for all rays: the program begins with o = p0 − c)";
-
-pub(super) fn steps(reading: &Reading, subject: &Subject, scene: &Scene, rays: &Rays) -> Vec<Step> {
+pub(super) fn steps(
+    reading: &Reading,
+    subject: &Subject,
+    scene: &Scene,
+    rays: &Rays,
+) -> Vec<MachineStep> {
     vec![
         pixel_step(reading, scene, rays),
         ray_step(reading),
@@ -18,7 +20,7 @@ pub(super) fn steps(reading: &Reading, subject: &Subject, scene: &Scene, rays: &
     ]
 }
 
-fn pixel_step(reading: &Reading, scene: &Scene, rays: &Rays) -> Step {
+fn pixel_step(reading: &Reading, scene: &Scene, rays: &Rays) -> MachineStep {
     let (x, y) = reading.pixel;
     let from_center = |at: u32, count: u32| f64::from(at) - (f64::from(count) - 1.0) / 2.0;
     let [u, v] = [
@@ -39,39 +41,39 @@ fn pixel_step(reading: &Reading, scene: &Scene, rays: &Rays) -> Step {
             "Every pixel looks from the same eye, each in its own direction: u pixels to the right of \
              the middle and v down.",
             "p0 = eye,  d = forward + u·right + v·down",
-            format!("d = {ahead} +\n{shift}"),
-            "(self.origin, self.direction + shift)",
+            format!("{ahead} +\n{shift}"),
+            "vector d = vectorAdd(forward, shift);",
         )
     } else {
         (
             "Every pixel looks the same way, each from its own place on the screen: u pixels to the \
              right of the middle and v down.",
             "p0 = eye + u·right + v·down,  d = forward",
-            format!("p0 = {eye} +\n{shift}"),
-            "(self.origin + shift, self.direction)",
+            format!("{eye} +\n{shift}"),
+            "vector p0 = vectorAdd(eye, shift);",
         )
     };
-    Step {
+    MachineStep {
         numbers: format!("pixel ({x}, {y}) of {}:\n{numbers}", rays.size),
         result: format!(
-            "p0 = {},\nd = {}",
+            "p0: {}\nd: {}",
             v3(reading.ray.origin),
             v3(reading.ray.direction)
         ),
         code: code.into(),
-        ..Step::plain("pixel", why, formula)
+        ..MachineStep::plain("pixel", why, formula)
     }
 }
 
-fn ray_step(reading: &Reading) -> Step {
+fn ray_step(reading: &Reading) -> MachineStep {
     let [p, d] = [reading.ray.origin, reading.ray.direction].map(|v| v.to_array());
     let along = |i: usize| format!("{} + {}t", n32(p[i]), bracketed(&n32(d[i])));
     let [origin, direction] = [reading.ray.origin, reading.ray.direction].map(v3);
-    Step {
+    MachineStep {
         numbers: format!("{origin} + t·{direction}"),
         result: format!("({}, {}, {})", along(0), along(1), along(2)),
-        code: "self.origin + t * self.direction".into(),
-        ..Step::plain(
+        code: "vector p = vectorAdd(&r->start, vectorScale(t, &r->dir));".into(),
+        ..MachineStep::plain(
             "ray",
             "One number t names every point of the line; t > 0 is in front of the eye.",
             "p(t) = p0 + t·d",
@@ -79,7 +81,7 @@ fn ray_step(reading: &Reading) -> Step {
     }
 }
 
-fn sphere_step(subject: &Subject) -> Step {
+fn sphere_step(subject: &Subject) -> MachineStep {
     let center = subject.sphere.center.to_array();
     let [x, y, z] = [0, 1, 2].map(|i| {
         let name = ["x", "y", "z"][i];
@@ -90,14 +92,13 @@ fn sphere_step(subject: &Subject) -> Step {
         }
     });
     let r = n32(subject.sphere.radius);
-    Step {
+    MachineStep {
         numbers: format!(
             "|p − {}| = {r} for a point p = (x, y, z) of it",
             v3(subject.sphere.center)
         ),
         result: format!("{x} + {y} + {z} = {r}²"),
-        code: ON_PAPER.into(),
-        ..Step::plain(
+        ..MachineStep::plain(
             "sphere",
             "A point is on the sphere if its distance from the centre is the radius.",
             "(p − c)·(p − c) = r²",
@@ -105,12 +106,11 @@ fn sphere_step(subject: &Subject) -> Step {
     }
 }
 
-fn substitution_step() -> Step {
-    Step {
+fn substitution_step() -> MachineStep {
+    MachineStep {
         numbers: "(d·d) t² + 2 d·(p0−c) t + |p0−c|² − r² = 0".into(),
         result: "At² + Bt + C = 0".into(),
-        code: ON_PAPER.into(),
-        ..Step::plain(
+        ..MachineStep::plain(
             "insert",
             "Put the point of the ray into the sphere's equation: what is left is a quadratic in t.",
             "(p0 + t·d − c)·(p0 + t·d − c) = r²",
