@@ -13,8 +13,9 @@ const BITS: i64 = 320;
 const TELLING: i64 = 200;
 /// What is larger or smaller than 2^±that is not followed.
 const FARTHEST: i64 = 1 << 24;
-/// How much a surd may hold before a ball takes its place.
-const LARGEST_SURD: i64 = 6000;
+/// How much the surds of a routine may hold before a ball takes their place: a loop may square without end.
+#[cfg(feature = "routine")]
+pub(super) const LARGEST_SURD: i64 = 6000;
 
 /// A number without rounding: itself, or within a ball.
 #[derive(Debug, Clone)]
@@ -54,23 +55,23 @@ impl Unrounded {
         }
     }
 
-    pub fn add(&self, other: &Self) -> Option<Self> {
-        self.both(other, Surd::checked_add, Ball::add)
+    pub fn add(&self, other: &Self, largest: i64) -> Option<Self> {
+        self.both(other, largest, Surd::checked_add, Ball::add)
     }
 
-    pub fn sub(&self, other: &Self) -> Option<Self> {
-        self.both(other, Surd::checked_sub, |x, y| x.add(&y.neg()))
+    pub fn sub(&self, other: &Self, largest: i64) -> Option<Self> {
+        self.both(other, largest, Surd::checked_sub, |x, y| x.add(&y.neg()))
     }
 
-    pub fn mul(&self, other: &Self) -> Option<Self> {
-        self.both(other, Surd::checked_mul, Ball::mul)
+    pub fn mul(&self, other: &Self, largest: i64) -> Option<Self> {
+        self.both(other, largest, Surd::checked_mul, Ball::mul)
     }
 
-    pub fn div(&self, other: &Self) -> Option<Self> {
+    pub fn div(&self, other: &Self, largest: i64) -> Option<Self> {
         if self.surd().is_some() && other.surd().is_some_and(Surd::is_zero) {
             return None;
         }
-        self.both(other, Surd::checked_div, Ball::div)
+        self.both(other, largest, Surd::checked_div, Ball::div)
     }
 
     pub fn neg(&self) -> Self {
@@ -80,36 +81,33 @@ impl Unrounded {
         }
     }
 
-    pub fn sqrt(&self) -> Option<Self> {
+    pub fn sqrt(&self, largest: i64) -> Option<Self> {
         if let Some(surd) = self.surd() {
             if surd.sign().is_lt() {
                 return None;
             }
-            if let Some(root) = surd.checked_sqrt().filter(is_small) {
+            if let Some(root) = surd.checked_sqrt().filter(|root| root.size() <= largest) {
                 return Some(Self::Surd(root));
             }
         }
         self.ball()?.sqrt().map(Self::Ball)
     }
 
-    /// By surds while these hold it, else by balls.
+    /// By surds while these hold it and are no larger than that, else by balls.
     fn both(
         &self,
         other: &Self,
+        largest: i64,
         by_surds: impl Fn(&Surd, &Surd) -> Option<Surd>,
         by_balls: impl Fn(&Ball, &Ball) -> Option<Ball>,
     ) -> Option<Self> {
         if let (Some(x), Some(y)) = (self.surd(), other.surd())
-            && let Some(result) = by_surds(x, y).filter(is_small)
+            && let Some(result) = by_surds(x, y).filter(|result| result.size() <= largest)
         {
             return Some(Self::Surd(result));
         }
         by_balls(&self.ball()?, &other.ball()?).map(Self::Ball)
     }
-}
-
-fn is_small(surd: &Surd) -> bool {
-    surd.size() <= LARGEST_SURD
 }
 
 impl Ball {
@@ -271,6 +269,8 @@ fn normal(m: f64, e: i64) -> (f64, i64) {
 mod tests {
     use super::*;
 
+    const LARGEST: i64 = 6000;
+
     fn exact(x: f64) -> Unrounded {
         Unrounded::Surd(Surd::from_f64(x).unwrap())
     }
@@ -278,33 +278,38 @@ mod tests {
     #[test]
     fn a_root_of_a_root_is_known_to_two_hundred_bits() {
         let two = exact(2.0);
-        let fourth = two.sqrt().unwrap().sqrt().unwrap();
+        let fourth = two.sqrt(LARGEST).unwrap().sqrt(LARGEST).unwrap();
         assert!(matches!(fourth, Unrounded::Ball(_)));
-        let square = fourth.mul(&fourth).unwrap();
-        let back = square.mul(&square).unwrap();
-        let off = back.sub(&two).unwrap();
+        let square = fourth.mul(&fourth, LARGEST).unwrap();
+        let back = square.mul(&square, LARGEST).unwrap();
+        let off = back.sub(&two, LARGEST).unwrap();
         // It is 0 or all but, so how far off can't be told.
         assert!(off.told().is_none());
         assert_eq!(back.told().unwrap().to_f64(), 2.0);
-        let sum = fourth.add(&exact(3.0).sqrt().unwrap()).unwrap();
+        let sum = fourth
+            .add(&exact(3.0).sqrt(LARGEST).unwrap(), LARGEST)
+            .unwrap();
         assert!(
             (sum.told().unwrap().to_f64() - (2.0_f64.powf(0.25) + 3.0_f64.sqrt())).abs() < 1e-14
         );
         let third = exact(1.0)
-            .div(&exact(3.0).sqrt().unwrap().sqrt().unwrap())
+            .div(
+                &exact(3.0).sqrt(LARGEST).unwrap().sqrt(LARGEST).unwrap(),
+                LARGEST,
+            )
             .unwrap();
         assert!((third.told().unwrap().to_f64() - 3.0_f64.powf(-0.25)).abs() < 1e-15);
     }
 
     #[test]
     fn what_may_be_zero_divides_nothing_and_what_grows_stays_small() {
-        let root = exact(2.0).sqrt().unwrap().sqrt().unwrap();
-        let nothing = root.sub(&root).unwrap();
-        assert!(exact(1.0).div(&nothing).is_none());
-        assert!(nothing.sqrt().is_none());
+        let root = exact(2.0).sqrt(LARGEST).unwrap().sqrt(LARGEST).unwrap();
+        let nothing = root.sub(&root, LARGEST).unwrap();
+        assert!(exact(1.0).div(&nothing, LARGEST).is_none());
+        assert!(nothing.sqrt(LARGEST).is_none());
         let mut x = exact(1.000_000_1);
         let mut steps = 0;
-        while let Some(next) = x.mul(&x) {
+        while let Some(next) = x.mul(&x, LARGEST) {
             x = next;
             steps += 1;
             assert!(steps < 200);

@@ -102,7 +102,7 @@ pub(super) fn coefficients<F: Formula>(ray: &Ray, sphere: &Sphere) -> Coefficien
 
 /// The derivation, by the same code over a number that keeps record.
 pub(super) fn steps<F: Formula>(ray: &Ray, sphere: &Sphere, truth: &Truth) -> Vec<TraceStep> {
-    let tape = Tape::default();
+    let tape = Tape::exact_throughout();
     let input = Input::new(ray, sphere, |x| tape.input(F::Float::from(x)));
     let mut steps = Steps::new(&tape, &input);
     let quantities = F::quantities(&input);

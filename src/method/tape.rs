@@ -28,8 +28,12 @@ impl Float for f64 {
 }
 
 /// The operations of one run, in the order in which they were done.
-#[derive(Debug, Default)]
-pub(super) struct Tape(RefCell<Vec<Entry>>);
+#[derive(Debug)]
+pub(super) struct Tape {
+    entries: RefCell<Vec<Entry>>,
+    /// How many bits an exact value may take.
+    largest: i64,
+}
 
 /// One operation with its result.
 #[derive(Debug, Clone)]
@@ -73,6 +77,19 @@ pub(super) enum Operand {
 }
 
 impl Tape {
+    /// A tape whose exact values are exact, however many bits that takes: for a formula, whose length is known.
+    pub const fn exact_throughout() -> Self {
+        Self::up_to(i64::MAX)
+    }
+
+    /// A tape on which larger values are known to within a bound.
+    pub const fn up_to(largest: i64) -> Self {
+        Self {
+            entries: RefCell::new(Vec::new()),
+            largest,
+        }
+    }
+
     /// An input, which is exact.
     pub fn input<F: Float>(&self, value: F) -> Traced<'_, F> {
         self.push(None, Vec::new(), value, exactly(value))
@@ -90,13 +107,13 @@ impl Tape {
 
     /// The entry of that number; none for one that is not on the tape.
     pub fn get(&self, entry: usize) -> Option<Entry> {
-        self.0.borrow().get(entry).cloned()
+        self.entries.borrow().get(entry).cloned()
     }
 
     fn exact(&self, operand: Operand) -> Option<Unrounded> {
         match operand {
             Operand::Constant(value) => exactly(value),
-            Operand::Entry(i) => self.0.borrow().get(i)?.exact.clone(),
+            Operand::Entry(i) => self.entries.borrow().get(i)?.exact.clone(),
         }
     }
 
@@ -107,7 +124,7 @@ impl Tape {
         value: F,
         exact: Option<Unrounded>,
     ) -> Traced<'_, F> {
-        let mut entries = self.0.borrow_mut();
+        let mut entries = self.entries.borrow_mut();
         entries.push(Entry {
             operation,
             operands,
@@ -173,17 +190,18 @@ impl<F: Float> Traced<'_, F> {
         let Some((tape, _)) = operands.iter().find_map(|o| o.place) else {
             return Self::constant(value);
         };
+        let largest = tape.largest;
         let exact = operands.map(Self::unrounded);
         let exact = match (operation, exact.each_ref().map(Option::as_ref).as_slice()) {
-            (Operation::Add, [Some(x), Some(y)]) => x.add(y),
-            (Operation::Sub, [Some(x), Some(y)]) => x.sub(y),
-            (Operation::Mul, [Some(x), Some(y)]) => x.mul(y),
-            (Operation::Div, [Some(x), Some(y)]) => x.div(y),
+            (Operation::Add, [Some(x), Some(y)]) => x.add(y, largest),
+            (Operation::Sub, [Some(x), Some(y)]) => x.sub(y, largest),
+            (Operation::Mul, [Some(x), Some(y)]) => x.mul(y, largest),
+            (Operation::Div, [Some(x), Some(y)]) => x.div(y, largest),
             (Operation::Neg, [Some(x)]) => Some(x.neg()),
-            (Operation::Sqrt, [Some(x)]) => x.sqrt(),
-            (Operation::MulAdd, [Some(x), Some(y), Some(z)]) => {
-                x.mul(y).and_then(|product| product.add(z))
-            }
+            (Operation::Sqrt, [Some(x)]) => x.sqrt(largest),
+            (Operation::MulAdd, [Some(x), Some(y), Some(z)]) => x
+                .mul(y, largest)
+                .and_then(|product| product.add(z, largest)),
             _ => None,
         };
         let operands = operands.map(Self::operand).to_vec();
@@ -278,7 +296,7 @@ mod tests {
 
     #[test]
     fn keeps_the_exact_value_beside_the_rounded_one() {
-        let tape = Tape::default();
+        let tape = Tape::exact_throughout();
         let [x, y] = [16_777_216.0_f32, 1.0].map(|v| tape.input(v));
         let difference = (x + y) - x;
         assert_eq!(difference.value(), 0.0);

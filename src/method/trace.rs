@@ -472,23 +472,7 @@ mod tests {
         /// What a step calls exact is what the truth has.
         #[test]
         fn exact_values_are_the_truths((ray, sphere) in question()) {
-            let truth = Truth::new(&ray, &sphere);
-            let wanted = [truth.a.clone(), truth.b(), truth.c.clone(), truth.discriminant()];
-            for method in Method::ALL {
-                let trace = method.trace(&ray, &sphere);
-                for ((symbol, factor), wanted) in steps_of(method).into_iter().zip(&wanted) {
-                    let Some(step) = trace.step(symbol) else {
-                        // `exact` asks no more than it needs.
-                        prop_assert!(method == Method::Exact);
-                        continue;
-                    };
-                    let part = &step.result.parts()[0];
-                    let factor = Surd::from_f64(factor).unwrap();
-                    let found = part.exact.as_ref().unwrap().checked_mul(&factor).unwrap();
-                    let off = found.checked_sub(&Surd::from(wanted.clone())).unwrap();
-                    prop_assert!(off.is_zero(), "{method} {symbol}");
-                }
-            }
+            has_the_truths(&ray, &sphere);
         }
 
         /// Nothing in a derivation or its text panics, and no number is missing from a formula.
@@ -504,6 +488,44 @@ mod tests {
                 prop_assert!(text.is_ascii(), "{text}");
             }
         }
+    }
+
+    fn has_the_truths(ray: &Ray, sphere: &Sphere) {
+        let truth = Truth::new(ray, sphere);
+        let wanted = [
+            truth.a.clone(),
+            truth.b(),
+            truth.c.clone(),
+            truth.discriminant(),
+        ];
+        for method in Method::ALL {
+            let trace = method.trace(ray, sphere);
+            for ((symbol, factor), wanted) in steps_of(method).into_iter().zip(&wanted) {
+                let Some(step) = trace.step(symbol) else {
+                    // `exact` asks no more than it needs.
+                    assert!(method == Method::Exact);
+                    continue;
+                };
+                let part = &step.result.parts()[0];
+                let factor = Surd::from_f64(factor).unwrap();
+                let found = part.exact.as_ref().unwrap().checked_mul(&factor).unwrap();
+                let off = found.checked_sub(&Surd::from(wanted.clone())).unwrap();
+                assert!(off.is_zero(), "{method} {symbol}");
+            }
+        }
+    }
+
+    /// However many bits that takes: 2^±149 squared, and divided by one another, is a long number.
+    #[test]
+    fn exact_values_of_the_greatest_beside_the_least_are_the_truths() {
+        let far = Ray::new([0.0; 3].into(), [0.0, 4.275_554e34, 0.0].into()).unwrap();
+        let sphere = Sphere::new([0.0, 0.0, 1e-45].into(), 2.922_076_4e37).unwrap();
+        has_the_truths(&far, &sphere);
+        let ray = Ray::new([3e38, 1e-45, 0.3].into(), [1e-45, 3e38, 0.7].into()).unwrap();
+        has_the_truths(
+            &ray,
+            &Sphere::new([1e-45, 0.1, 3e38].into(), 1e-45).unwrap(),
+        );
     }
 
     fn trace(method: Method, p0: [f32; 3], d: [f32; 3], center: [f32; 3], r: f32) -> Trace {

@@ -8,6 +8,7 @@ use std::marker::PhantomData;
 use super::build::Steps;
 use super::{Measured, Quantity, TraceStep};
 use crate::geometry::{Ray, Sphere};
+use crate::method::ball::LARGEST_SURD;
 use crate::method::format::Shortest;
 use crate::method::number::Input;
 use crate::method::tape::{Float, Tape, Traced};
@@ -81,7 +82,7 @@ pub(in crate::method) fn steps(
 ) -> Vec<TraceStep> {
     let routine = id.get();
     let program = &routine.program;
-    let tape = Tape::default();
+    let tape = Tape::up_to(LARGEST_SURD);
     let input = Input::new(ray, sphere, |x| tape.input(x));
     let mut scribe = Scribe {
         program,
