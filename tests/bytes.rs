@@ -140,7 +140,7 @@ fn cursor_step(size: (u16, u16), start: Start) -> usize {
 fn a_step_keeps_to_its_budget() {
     for (what, size, start, budget) in [
         ("half blocks", SMALL, half(), 2500),
-        ("ASCII", SMALL, ascii(), 700),
+        ("ASCII", SMALL, ascii(), 1100),
         ("half blocks", LARGE, half(), 9000),
     ] {
         for bytes in [

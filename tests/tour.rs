@@ -460,7 +460,7 @@ fn what_a_page_says_to_try_shows_what_it_promises() {
         ),
         (1, 3, &[("", "−3.46"), ("", "3.26")]),
         (2, 1, &[("N", "t = 1"), ("N", "t = 2")]),
-        (2, 2, &[("n", "sphere 2 of 4"), ("n", "sphere 3 of 4")]),
+        (2, 2, &[("n", "(4, 10, 14)"), ("n", "(6, 15, 21)")]),
         (5, 1, &[("down down", "Δ = 0")]),
         (
             5,
@@ -472,7 +472,11 @@ fn what_a_page_says_to_try_shows_what_it_promises() {
             2,
             &[("right right t", "touches the sphere"), ("v", "outline")],
         ),
-        (7, 1, &[("n", "blue")]),
+        (
+            7,
+            1,
+            &[("", "this point is seen"), ("n", "but the ray meets another")],
+        ),
         (
             7,
             3,

@@ -61,7 +61,7 @@ fn a_student_has_a_first_lesson() {
         at == of && at.is_some()
     });
     pty.sends(",");
-    pty.waits_for("the step before", |p| !p.text().contains("[glyph]"));
+    pty.waits_to_show("step 9 of 10");
     pty.sends(" ");
     pty.waits_to_show("n Numerics");
     pty.sends("et");
@@ -408,7 +408,7 @@ fn unsaved_work_outlives_the_terminal_and_is_offered_again() {
     let mut pty = Pty::explorer(Start::default().home(&home));
     pty.waits_to_show("Unsaved work of");
     pty.sends("o");
-    pty.waits_to_show("c    21, 20, 20");
+    pty.waits_to_show("c: (21, 20, 20)");
     pty.is_sent(Signal::TERM);
     assert_eq!(pty.ends(), 143);
     pty.is_restored();
@@ -440,7 +440,7 @@ fn who_is_killed_loses_next_to_nothing() {
     let mut pty = Pty::explorer(Start::default().home(&home));
     pty.waits_to_show("Unsaved work of");
     pty.sends("o");
-    pty.waits_to_show("c    21, 20, 20");
+    pty.waits_to_show("c: (21, 20, 20)");
 }
 
 #[test]
@@ -613,9 +613,9 @@ fn the_mouse_is_asked_for_by_a_key_and_given_back() {
     // The cell at the top left of the picture.
     pty.sends("\x1b[<0;2;3M\x1b[<0;2;3m");
     pty.waits_to_show("pixel (0, 0)");
-    pty.waits_to_show("p0   0, 0, 0");
+    pty.waits_to_show("p0: (0, 0, 0)");
     pty.sends("\x1b[<64;9;9M");
-    pty.waits_for("the wheel", |p| !p.shows("p0   0, 0, 0"));
+    pty.waits_for("the wheel", |p| !p.shows("p0: (0, 0, 0)"));
     pty.sends("$");
     pty.waits_for("the mouse given back", |p| {
         p.screen().mouse_protocol_mode() == vt100::MouseProtocolMode::None
@@ -738,19 +738,23 @@ impl Pty {
             .any(|n: u16| matches!(n, 30..=38 | 40..=48 | 90..=107))
     }
 
-    /// The last word of the panel's line that starts with this name.
+    /// What the panel says that a letter comes to: the last word of its line, or of the line that goes on with it.
     fn value(&self, name: &str) -> String {
         let text = self.text();
         let panel = |line: &str| {
-            line.rsplit_once('│')
-                .and_then(|(l, _)| Some(l.rsplit_once('│')?.1.trim().to_owned()))
+            let (line, _) = line.rsplit_once('│')?;
+            Some(line.rsplit_once('│')?.1.trim_end().to_owned())
         };
-        let line = text
-            .lines()
-            .filter_map(panel)
-            .find(|line| line.split_whitespace().next() == Some(name))
+        let lines: Vec<_> = text.lines().filter_map(panel).collect();
+        let first = lines
+            .iter()
+            .position(|line| line.split_whitespace().next() == Some(name))
             .unwrap_or_else(|| panic!("no {name} on\n{text}"));
-        line.split_whitespace()
+        let more = lines[first + 1..]
+            .iter()
+            .take_while(|line| line.starts_with("   "));
+        let last = more.last().unwrap_or(&lines[first]);
+        last.split_whitespace()
             .last()
             .unwrap_or_default()
             .to_owned()

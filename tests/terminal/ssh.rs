@@ -196,7 +196,7 @@ fn a_killed_connection_ends_it_and_loses_nothing() {
     let mut pty = Pty::explorer(server.explorer("tutorial"));
     pty.waits_to_show("Unsaved work of");
     pty.sends("o");
-    pty.waits_to_show("c    21, 20, 20");
+    pty.waits_to_show("c: (21, 20, 20)");
     pty.sends("q");
     // An answer that loses work counts once the question has been shown.
     pty.waits_to_show("D quit without saving");

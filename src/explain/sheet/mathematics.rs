@@ -27,13 +27,17 @@ pub(super) fn steps(
         c_step(&q),
         delta_step(&q),
     ];
+    let is_first = reading
+        .meetings
+        .first()
+        .is_some_and(|m| m.body == subject.body);
     let Some(roots) = &q.roots else {
         steps.extend(closest_step(&q));
-        steps.push(seen_step(&q, subject));
+        steps.push(seen_step(&q, subject, is_first));
         return steps;
     };
     steps.push(roots_step(&q, roots));
-    steps.push(seen_step(&q, subject));
+    steps.push(seen_step(&q, subject, is_first));
     let seen = match subject.solution.place() {
         Some(Place::Hit) => &roots[0],
         Some(Place::Inside) => &roots[1],
@@ -41,10 +45,6 @@ pub(super) fn steps(
     };
     let point = point_of(&q, seen);
     steps.push(point_step(&q, seen, &point));
-    let is_first = reading
-        .meetings
-        .first()
-        .is_some_and(|m| m.body == subject.body);
     let drawn = drawn.filter(|_| is_first);
     steps.push(light_step(&q, subject, light, &point, (drawn, is_first)));
     steps
@@ -392,7 +392,7 @@ fn roots_step(q: &WorkedQuadratic, roots: &[WorkedRoot; 2]) -> Step {
     }
 }
 
-fn seen_step(q: &WorkedQuadratic, subject: &Subject) -> Step {
+fn seen_step(q: &WorkedQuadratic, subject: &Subject, is_first: bool) -> Step {
     let t = |i: usize| {
         q.roots
             .as_ref()
@@ -402,7 +402,11 @@ fn seen_step(q: &WorkedQuadratic, subject: &Subject) -> Step {
     let (compared, outcome) = match subject.solution.place() {
         Some(Place::Hit) => (
             format!("0 < {near}"),
-            "near is in front of the eye: this point is seen",
+            if is_first {
+                "near is in front of the eye: this point is seen"
+            } else {
+                "near is in front of the eye, but the ray meets another sphere first"
+            },
         ),
         Some(Place::Inside) if near == "0" => (
             format!("0 < {far}"),
@@ -410,7 +414,11 @@ fn seen_step(q: &WorkedQuadratic, subject: &Subject) -> Step {
         ),
         Some(Place::Inside) => (
             format!("{near} < 0 < {far}"),
-            "the eye is inside the sphere: the far point is seen",
+            if is_first {
+                "the eye is inside the sphere: the far point is seen"
+            } else {
+                "the eye is inside the sphere, but the ray meets another one first"
+            },
         ),
         Some(Place::Behind) if far == "0" => (
             String::new(),
