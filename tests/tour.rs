@@ -475,7 +475,10 @@ fn what_a_page_says_to_try_shows_what_it_promises() {
         (
             7,
             1,
-            &[("", "this point is seen"), ("n", "but the ray meets another")],
+            &[
+                ("", "this point is seen"),
+                ("n", "but the ray meets another"),
+            ],
         ),
         (
             7,
