@@ -1,8 +1,8 @@
 //! One's own routine: a function in GLSL or WGSL that meets a ray with a sphere, checked, compiled
 //! to operations on single numbers, and run over any number: in arrays for speed, or over one that keeps record.
 //!
-//! `naga` reads and validates the text; what it is asked to read is bounded before ([`guard`]), and what a run
-//! may cost is bounded after ([`run`]).
+//! `naga` reads and validates the text; what it is asked to read is bounded before (`guard`), and what a run
+//! may cost is bounded after (`run`).
 
 mod compile;
 mod front;
