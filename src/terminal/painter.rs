@@ -4,7 +4,8 @@
 //! both colours wherever one changes. Over a slow link bytes are time, so this one writes the
 //! cheapest that shows the same cells: no colour that does not show, the shortest way to the next
 //! cell, the cells of a short gap again rather than a jump over it; and row by row or ink by ink,
-//! whichever takes less. It takes no more time than that backend, and once it has room no memory.
+//! whichever takes less. `rayscope bench --frames --explorer SCENE` has both beside each other: about half the
+//! bytes, for up to twice the time. Once it has room it takes no memory.
 
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
