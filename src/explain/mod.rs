@@ -248,6 +248,12 @@ impl Reading {
 }
 
 impl Reading {
+    /// Whether nothing is met before this sphere.
+    fn is_first(&self, subject: &Subject) -> bool {
+        let first = self.meetings.first();
+        first.is_some_and(|meeting| meeting.body == subject.body)
+    }
+
     /// Where this method is wrong about the pixel, held to the reading of `exact`: what is wrong.
     pub fn disagreement(&self, exact: &Self) -> Option<String> {
         let method = self.method;

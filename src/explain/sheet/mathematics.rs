@@ -27,10 +27,7 @@ pub(super) fn steps(
         c_step(&q),
         delta_step(&q),
     ];
-    let is_first = reading
-        .meetings
-        .first()
-        .is_some_and(|m| m.body == subject.body);
+    let is_first = reading.is_first(subject);
     let Some(roots) = &q.roots else {
         steps.extend(closest_step(&q));
         steps.push(seen_step(&q, subject, is_first));

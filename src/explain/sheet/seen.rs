@@ -18,7 +18,7 @@ pub(super) fn steps(
     light: Option<Light>,
     drawn: Option<&Drawn>,
 ) -> Vec<MachineStep> {
-    let mut steps = vec![seen_step(subject)];
+    let mut steps = vec![seen_step(subject, reading.is_first(subject))];
     if let Some(sight) = &subject.sight {
         steps.push(point_step(reading, subject, sight));
         steps.push(check_step(subject, sight.point));
@@ -85,21 +85,26 @@ fn near_given(subject: &Subject) -> bool {
     !subject.solution.near.is_nan()
 }
 
-fn seen_step(subject: &Subject) -> MachineStep {
+fn seen_step(subject: &Subject, is_first: bool) -> MachineStep {
+    let seen = if is_first {
+        "is seen"
+    } else {
+        "would be seen, but the ray meets another sphere first"
+    };
     let [near, far] = [subject.solution.near, subject.solution.far].map(n32);
     let outcome = match subject.solution.place() {
         Some(Place::Hit) if subject.solution.near == 0.0 => {
-            "0 < near, which rounds to 0, a hit: the near point is seen".into()
+            format!("0 < near, which rounds to 0, a hit: the near point {seen}")
         }
         Some(Place::Hit) if !near_given(subject) => "a hit, at no t that the routine gives".into(),
         Some(Place::Behind) if subject.solution.class == Class::Hit => {
             format!("{near} ≤ 0, behind: the ray does not meet it there")
         }
-        Some(Place::Hit) => format!("0 < {near}, a hit: the near point is seen"),
+        Some(Place::Hit) => format!("0 < {near}, a hit: the near point {seen}"),
         Some(Place::Inside) if subject.solution.far == 0.0 => {
-            "near ≤ 0 < far, which rounds to 0, inside: the far point is seen".into()
+            format!("near ≤ 0 < far, which rounds to 0, inside: the far point {seen}")
         }
-        Some(Place::Inside) => format!("{near} ≤ 0 < {far}, inside: the far point is seen"),
+        Some(Place::Inside) => format!("{near} ≤ 0 < {far}, inside: the far point {seen}"),
         Some(Place::Behind) => {
             format!("{far} ≤ 0, behind: the line meets the sphere, the ray does not")
         }
