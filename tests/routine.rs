@@ -2,14 +2,23 @@
 
 #![cfg(feature = "routine")]
 
+use std::fs;
 use std::path::Path;
 use std::process::Command;
+use std::sync::mpsc::{self, Receiver};
+use std::time::Duration;
 
+use ratatui::buffer::{Buffer, Cell};
+use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
+use ratatui::layout::Rect;
+use rayscope::explorer::{Explorer, Options, Workplace};
 use rayscope::lab::check::check;
 use rayscope::lab::families::Family;
 use rayscope::method::source::{SourceLanguage, source};
 use rayscope::method::{Class, Method, RoutineId};
 use rayscope::routine::Language;
+use rayscope::scene::{Builtin, Source};
+use rayscope::system::Waker;
 
 /// The routine in a text.
 fn learn(name: &str, text: &str) -> RoutineId {
@@ -277,4 +286,53 @@ fn a_replaced_text_frees_the_ones_before_it_and_old_handles_still_answer() {
     let ray = rayscope::geometry::Ray::new([0.0; 3].into(), [1.0, 0.0, 0.0].into()).unwrap();
     let sphere = rayscope::geometry::Sphere::new([0.0; 3].into(), 1.0).unwrap();
     assert_eq!(Method::Routine(first).solve(&ray, &sphere).near, 29.0);
+}
+
+/// An explorer with a routine in a folder of its own, and what it rings when the file has changed.
+fn explorer_with(name: &str, text: &str) -> (tempfile::TempDir, Explorer, Receiver<()>) {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join(name), text).unwrap();
+    let source = Source::Builtin(Builtin::Tutorial);
+    let mut explorer = Explorer::new(Builtin::Tutorial.scene(), &source, Options::default());
+    explorer.work_in(Workplace::within(folder.path()), &source);
+    let (ring, rung) = mpsc::channel();
+    explorer.wake_by(Waker::new(move || {
+        // Nobody listens any more once the test has ended.
+        let _ = ring.send(());
+    }));
+    for c in format!(":method {name}\r").chars() {
+        let code = if c == '\r' {
+            KeyCode::Enter
+        } else {
+            KeyCode::Char(c)
+        };
+        explorer.update(&Event::Key(KeyEvent::new(code, KeyModifiers::NONE)));
+    }
+    explorer.prepare(80, 24);
+    (folder, explorer, rung)
+}
+
+fn screen(explorer: &mut Explorer) -> String {
+    explorer.prepare(80, 24);
+    let mut buffer = Buffer::empty(Rect::new(0, 0, 80, 24));
+    explorer.draw(&mut buffer);
+    buffer.content().iter().map(Cell::symbol).collect()
+}
+
+#[test]
+fn a_routine_that_is_saved_is_read_again_and_one_with_an_error_is_not_taken() {
+    let text = fs::read_to_string("tests/routines/textbook.glsl").unwrap();
+    let (folder, mut explorer, rung) = explorer_with("mine.glsl", &text);
+    let file = folder.path().join("mine.glsl");
+    let mut is_saved = |text: &str| {
+        fs::write(&file, text).unwrap();
+        rung.recv_timeout(Duration::from_secs(20)).expect("woken");
+        assert!(explorer.catch_up());
+        screen(&mut explorer)
+    };
+    let found = is_saved(&text.replace("< 0.0", "< 1e9"));
+    assert!(found.contains("mine.glsl: read again"), "{found}");
+    let missed = is_saved(&text.replace("< 0.0", "< 0.0 0.0"));
+    assert!(missed.contains("the one before stays"), "{missed}");
+    assert!(missed.contains(" mine.glsl "), "{missed}");
 }

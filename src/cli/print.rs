@@ -309,7 +309,7 @@ fn fit_as_asked(scene: &Scene, style: Style, arguments: &Print) -> (Size, PixelS
     fit_in(scene, style, room(), arguments.size, arguments.aspect)
 }
 
-/// The size of a picture in a room of so many columns and rows, if no other is asked for.
+/// The size of a picture in a room of these columns and rows, if no other is asked for.
 pub(super) fn fit_in(
     scene: &Scene,
     style: Style,

@@ -7,7 +7,7 @@ use dashu_int::IBig;
 
 use crate::method::{Dyadic, Surd};
 
-/// Numbers of at most so many digits are written in full.
+/// Numbers of at most this many digits are written in full.
 const WHOLE: usize = 8;
 
 /// A number as it is printed: a decimal, and what that decimal is.
@@ -70,7 +70,7 @@ impl Written {
         .trimmed()
     }
 
-    /// The number rounded to so many decimals.
+    /// The number rounded to `places` decimals.
     pub fn at(number: &Surd, places: i64) -> Self {
         let units = number.in_decimal_units(places);
         let value = decimal(units.clone(), places);
@@ -82,12 +82,12 @@ impl Written {
         }
     }
 
-    /// A term of a sum with so many decimals; nothing is nothing.
+    /// A term of a sum, with `places` decimals; 0 is written without decimals.
     pub fn term(number: &Surd, places: i64) -> Self {
         Self::at(number, if number.is_zero() { 0 } else { places })
     }
 
-    /// The number with so many decimals, where it was written in full with fewer.
+    /// The number with `places` decimals, where it was written in full with fewer.
     pub fn padded(&self, places: i64) -> Self {
         Self::at(&self.value, places)
     }

@@ -1,7 +1,7 @@
 //! One's own routines: opened by name, read again when their file is saved.
 
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::thread;
 use std::time::Duration;
 
@@ -81,52 +81,58 @@ pub(crate) fn catch_up(state: &mut State) -> bool {
     changed
 }
 
+/// Files, each with what it was like when it was last read, and who is woken when one has changed.
+struct WatchList {
+    files: Vec<(PathBuf, FileStamp)>,
+    waker: Waker,
+}
+
 /// Looks at files on a thread of its own, and wakes who waits when one has changed.
 #[derive(Debug, Default)]
 pub(crate) struct Watch {
-    files: Arc<Mutex<Vec<(PathBuf, FileStamp)>>>,
-    is_running: bool,
+    /// The way to the thread, which ends when this goes.
+    thread: Option<Sender<WatchList>>,
 }
 
 impl Watch {
     /// Watches the files of these routines, and no others.
     pub(crate) fn over(&mut self, routines: &[OwnRoutine], waker: &Waker) {
-        let files = routines
-            .iter()
-            .map(|routine| (routine.path.clone(), routine.stamp))
-            .collect();
-        let mut watched = self.files.lock().unwrap_or_else(PoisonError::into_inner);
-        *watched = files;
-        if self.is_running || watched.is_empty() {
-            return;
+        let files = routines.iter();
+        let list = WatchList {
+            files: files.map(|own| (own.path.clone(), own.stamp)).collect(),
+            waker: waker.clone(),
+        };
+        if let Some(thread) = &self.thread {
+            // Without a thread, files are read again by `:method` alone.
+            let _ = thread.send(list);
+        } else if !routines.is_empty() {
+            let (sender, lists) = mpsc::channel();
+            let _ = thread::Builder::new()
+                .name("files".to_owned())
+                .spawn(move || watch(list, &lists));
+            self.thread = Some(sender);
         }
-        drop(watched);
-        self.is_running = true;
-        let (files, waker) = (Arc::downgrade(&self.files), waker.clone());
-        // Where no thread can be had, files are read again by `:method` alone.
-        let _ = thread::Builder::new()
-            .name("files".to_owned())
-            .spawn(move || watch(&files, &waker));
     }
 }
 
-/// Until nobody holds the list any more.
-fn watch(files: &Weak<Mutex<Vec<(PathBuf, FileStamp)>>>, waker: &Waker) {
-    while let Some(files) = files.upgrade() {
-        let mut watched = files.lock().unwrap_or_else(PoisonError::into_inner);
+/// Looks at the files of the newest list until no list can come any more.
+fn watch(mut list: WatchList, lists: &Receiver<WatchList>) {
+    loop {
+        match lists.recv_timeout(EVERY) {
+            Ok(newer) => list = newer,
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => return,
+        }
         let mut changed = false;
-        for (path, was) in watched.iter_mut() {
+        for (path, was) in &mut list.files {
             let now = stamp(path);
             if now.is_some() && now != *was {
                 *was = now;
                 changed = true;
             }
         }
-        drop(watched);
-        drop(files);
         if changed {
-            waker.wake();
+            list.waker.wake();
         }
-        thread::sleep(EVERY);
     }
 }

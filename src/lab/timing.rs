@@ -260,7 +260,7 @@ pub struct TimedRun {
     pub times: Vec<Times>,
     /// A second copy of the first routine, timed among the others on the same unseen rays.
     pub copy: Timing,
-    /// Into how many parts the unseen rays were cut: so many samples are one pass.
+    /// Into how many parts the unseen rays were cut: one pass has as many samples.
     pub parts: usize,
 }
 
@@ -391,7 +391,7 @@ const LESSONS: usize = 4;
 /// Rounds before the first that counts.
 const WARM_UP: usize = 2;
 
-/// The unseen rays are timed in so many parts, each of so many rays at least.
+/// The number of parts in which the unseen rays are timed, and the least number of rays in each.
 const PARTS: usize = 16;
 const LEAST_PART: usize = 64;
 
@@ -622,7 +622,7 @@ mod tests {
         }
     }
 
-    /// Takes so many nanoseconds a ray alone, in arrays, and in a chain.
+    /// Takes these nanoseconds a ray alone, in arrays, and in a chain.
     struct Worker(Workshop, [u64; 3]);
 
     impl Routine for Worker {

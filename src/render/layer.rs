@@ -86,7 +86,7 @@ pub(super) struct Layer {
 }
 
 impl Layer {
-    /// Nothing is known of so many pixels.
+    /// Nothing is known of this number of pixels.
     pub(super) fn clear_all(&mut self, pixels: usize) {
         refill(&mut self.t, pixels, f32::INFINITY);
         refill(&mut self.body, pixels, NOBODY);

@@ -30,7 +30,7 @@ use crate::method::simd::{self, Kernel};
 use crate::method::{Method, Solution, exact};
 use crate::scene::{Body, Rays};
 
-/// After so many runs of a tile changed its bound is worked out again.
+/// After this many runs of a tile changed, its bound is worked out again.
 const STALE: u32 = 8;
 
 /// From this width on a sphere's columns are worked out row by row.

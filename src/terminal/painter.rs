@@ -738,7 +738,7 @@ impl Sequence {
     }
 }
 
-/// A jump takes no more bytes than so many cells.
+/// A jump takes no more bytes than this many cells.
 const MOST_AGAIN: u16 = 12;
 /// So many bytes of a cell are worth writing again.
 const LONGEST_AGAIN: usize = 8;

@@ -77,7 +77,7 @@ impl DrawingArea {
         f64::midpoint(self.top, self.bottom)
     }
 
-    /// What the widest piece has left beside so many pieces at its sides.
+    /// What the widest piece has left beside this number of pieces at its sides.
     pub(super) fn width_beside(self, sides: usize) -> f64 {
         self.width() - sides as f64 * (self.side() + self.gap())
     }

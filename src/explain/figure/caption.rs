@@ -107,7 +107,7 @@ pub(super) fn caption_of(section: &Section, subject: &Subject, glyphs: Glyphs) -
     caption
 }
 
-/// A number with so many digits.
+/// A number with this number of digits.
 pub(super) fn rounded(value: f64, digits: usize) -> String {
     // + 0 takes the sign off a zero: "−0" says nothing on a figure.
     let value = value + 0.0;

@@ -27,7 +27,7 @@ impl PlaneLine {
         height: 2,
     };
 
-    /// The line turned and raised by so many tenths.
+    /// The line with these tenths added to its slope and its height.
     #[must_use]
     pub fn moved(self, slope: i64, height: i64) -> Self {
         Self {
@@ -74,7 +74,7 @@ impl PlaneLine {
     }
 }
 
-/// A number of so many decimals, without zeros at its end.
+/// `n` in units of the last of `places` decimals, without zeros at its end.
 fn decimal(n: i64, places: u32) -> String {
     let unit = 10_i64.pow(places);
     let (whole, rest) = (n.abs() / unit, n.abs() % unit);

@@ -198,7 +198,7 @@ fn visible_point(question: &PaperQuestion, t: WrittenNumber) -> String {
     at(question, t.value(), digits.min(10) as usize)
 }
 
-/// The point p0 + t·d in at most so many digits.
+/// The point p0 + t·d in at most this many digits.
 fn at(question: &PaperQuestion, t: f64, digits: usize) -> String {
     let point = [0, 1, 2].map(|i| question.origin[i].value() + t * question.direction[i].value());
     // A sum of decimals is off in its last binary digit; nobody writes that down.

@@ -7,7 +7,7 @@ use crate::explorer::draw::pen::Pen;
 use crate::explorer::draw::theme::Theme;
 use crate::text::{Glyphs, wrap};
 
-/// A letter is a square of so many dots.
+/// The dots on each side of a letter's square.
 const DOTS: u16 = 8;
 /// No letter is larger than this many times the smallest of its kind.
 const LARGEST: u16 = 16;
@@ -15,11 +15,11 @@ const LARGEST: u16 = 16;
 /// How a letter is made of cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Grain {
-    /// Half blocks: 8 × 4 cells, or so many times as many each way.
+    /// Half blocks: 8 × 4 cells, or a multiple of that each way.
     Half(u16),
-    /// Quarter blocks: 4 × 4 cells, or so many times as many each way.
+    /// Quarter blocks: 4 × 4 cells, or a multiple of that each way.
     Quadrant(u16),
-    /// Plain characters: 8 × 8 cells, or so many times as many each way.
+    /// Plain characters: 8 × 8 cells, or a multiple of that each way.
     Whole(u16),
     /// One cell: there is no room for more.
     Letter,

@@ -64,7 +64,7 @@ pub struct Theme {
 }
 
 impl Theme {
-    /// The theme for a terminal of so many colours.
+    /// The theme for a terminal with this colour depth.
     pub fn new(palette: Palette, depth: ColorDepth) -> Self {
         let depth = match palette {
             Palette::Monochrome => ColorDepth::None,

@@ -77,7 +77,7 @@ impl Menu {
         self.items().swap_remove(self.item)
     }
 
-    /// Goes by so many columns, or so many actions in a list.
+    /// Goes by a number of columns, or of actions in a list.
     fn go(&mut self, right: isize, down: isize, state: &State) {
         let count = |menu: &Self| menu.items().len() as isize;
         if self.is_listing {
