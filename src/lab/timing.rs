@@ -113,21 +113,27 @@ pub fn is_timed(method: Method) -> bool {
 }
 
 /// The routine of a method.
+#[expect(
+    clippy::inline_always,
+    reason = "what is timed is the method in a loop, not a call that the loops have in common"
+)]
 pub fn routine(method: Method) -> Box<dyn Routine> {
     macro_rules! of {
         ($($variant:ident),*) => {
             match method {
-                $(Method::$variant => Box::new(Of {
+                $(Method::$variant => {
+                    #[inline(always)]
+                    fn single(ray: &Ray, sphere: &Sphere) -> Solution {
+                        Method::$variant.solve(ray, sphere)
+                    }
+                    Box::new(Of { method, single })
+                })*
+                Method::Routine(_) => Box::new(Of {
                     method,
-                    single: |r: &Ray, s: &Sphere| Method::$variant.solve(r, s),
-                }),)*
-                Method::Routine(_) => unreachable!("returned above"),
+                    single: move |ray: &Ray, sphere: &Sphere| method.solve(ray, sphere),
+                }),
             }
         };
-    }
-    if method.is_routine() {
-        let single = move |r: &Ray, s: &Sphere| method.solve(r, s);
-        return Box::new(Of { method, single });
     }
     of!(
         Textbook, Contracted, Unit, Citardauq, Haines, Kahan, Double, Exact

@@ -390,7 +390,7 @@ where
         let out = out.class.iter_mut().zip(&mut out.place).zip(roots);
         for (i, ((class, place), (near, far))) in out.enumerate() {
             let (ray, sphere) = self.batch.get(i);
-            let solution = formula::solve_in_loop::<F>(&ray, &sphere);
+            let solution = formula::solve::<F>(&ray, &sphere);
             (*class, *place) = (solution.class, solution.place);
             (*near, *far) = (solution.near, solution.far);
         }

@@ -42,21 +42,16 @@ pub(super) trait Formula {
 
 /// Class by the sign of the discriminant, and both roots.
 ///
-/// It is compiled into its caller: into a loop over arrays, for the vectors that the loop has.
+/// It is compiled into its caller: into a loop over arrays, for the vectors that the loop has, and into a loop over
+/// rays, where a call of its own would wait for what the last one left in the registers.
 #[inline(always)]
-pub(super) fn solve_in_loop<F: Formula>(ray: &Ray, sphere: &Sphere) -> Solution {
+pub(super) fn solve<F: Formula>(ray: &Ray, sphere: &Sphere) -> Solution {
     let quantities = F::quantities(&Input::new(ray, sphere, F::Float::from));
     let class = Class::of_discriminant(F::discriminant(&quantities).into());
     if !class.meets() {
         return Solution::without_roots(class);
     }
     F::solution(class, &quantities)
-}
-
-/// The same as a call of its own, so that a long one is not in the way of short ones.
-#[inline(never)]
-pub(super) fn solve<F: Formula>(ray: &Ray, sphere: &Sphere) -> Solution {
-    solve_in_loop::<F>(ray, sphere)
 }
 
 /// The same for a formula with fused multiply-adds: where the processor has them, that is what runs.
@@ -83,7 +78,7 @@ struct Single<'a, F> {
 impl<F: Formula> Kernel for Single<'_, F> {
     #[inline(always)]
     fn run(self) {
-        *self.out = solve_in_loop::<F>(self.ray, self.sphere);
+        *self.out = solve::<F>(self.ray, self.sphere);
     }
 }
 

@@ -122,14 +122,20 @@ impl Method {
     }
 
     /// Where the line of `ray` meets `sphere`.
+    #[expect(
+        clippy::inline_always,
+        reason = "a method that is known where it is called is then its formula alone; left to the compiler it is a call of \
+                  all of them, and `textbook` takes three times as long"
+    )]
+    #[inline(always)]
     pub fn solve(self, ray: &Ray, sphere: &Sphere) -> Solution {
         match self {
-            Self::Textbook => formula::solve_in_loop::<Textbook>(ray, sphere),
+            Self::Textbook => formula::solve::<Textbook>(ray, sphere),
             Self::Contracted => formula::solve_fused::<Contracted>(ray, sphere),
-            Self::Unit => formula::solve_in_loop::<Unit>(ray, sphere),
-            Self::Citardauq => formula::solve_in_loop::<Citardauq>(ray, sphere),
+            Self::Unit => formula::solve::<Unit>(ray, sphere),
+            Self::Citardauq => formula::solve::<Citardauq>(ray, sphere),
             Self::Haines => formula::solve::<Haines>(ray, sphere),
-            Self::Kahan => formula::solve_in_loop::<Kahan>(ray, sphere),
+            Self::Kahan => formula::solve::<Kahan>(ray, sphere),
             Self::Double => formula::solve::<Double>(ray, sphere),
             Self::Exact => exact::solve(ray, sphere),
             Self::Routine(id) => id.solve(ray, sphere),

@@ -150,7 +150,7 @@ pub struct Record {
 
 /// The exact class, and both roots rounded once to binary32 (nearest, ties to even, ±∞ past the
 /// range, +0 for what rounds to zero), for finite numbers, d ≠ 0 and r ≥ 0.
-#[inline]
+#[inline(always)]
 pub fn solve(ray: &Ray, sphere: &Sphere) -> Solution {
     let input = Input::new(ray, sphere, f64::from);
     let discriminant = binary64::discriminant(&input);
