@@ -44,33 +44,29 @@ impl Clock for SystemClock {
 }
 
 /// What can be timed: a way to solve, run over many rays at a stretch.
+///
+/// The loops are compiled for each way to solve: what is timed is its body in a loop, not a call through a pointer.
 pub trait Routine {
+    /// Where the line of the ray meets the sphere.
+    fn solve(&self, ray: &Ray, sphere: &Sphere) -> Solution;
+
     /// Answers each problem, independently of the others.
-    fn solve_all(&self, problems: &[Problem], answers: &mut [Solution]);
-
-    /// Answers all problems, which lie in arrays, at once.
-    fn solve_arrays(&self, arrays: &Arrays, answers: &mut Solutions);
-
-    /// Answers each problem once the answer before it is known; the bits of the last answer.
-    fn solve_chain(&self, problems: &[Problem]) -> u32;
-}
-
-/// A function is compiled into the loops: what is timed is its body, not a call through a pointer.
-impl<F: Fn(&Ray, &Sphere) -> Solution> Routine for F {
     fn solve_all(&self, problems: &[Problem], answers: &mut [Solution]) {
         for ((ray, sphere), answer) in problems.iter().zip(answers) {
-            *answer = self(ray, sphere);
+            *answer = self.solve(ray, sphere);
         }
     }
 
+    /// Answers all problems, which lie in arrays, at once.
     fn solve_arrays(&self, arrays: &Arrays, answers: &mut Solutions) {
         let batch = arrays.batch();
         answers.replace((0..batch.count()).map(|i| {
             let (ray, sphere) = batch.get(i);
-            self(&ray, &sphere)
+            self.solve(&ray, &sphere)
         }));
     }
 
+    /// Answers each problem once the answer before it is known; the bits of the last answer.
     fn solve_chain(&self, problems: &[Problem]) -> u32 {
         // A mask that the compiler cannot tell to be zero: each ray is the very ray of the list, but
         // its first coordinate is not there before the last answer.
@@ -79,30 +75,16 @@ impl<F: Fn(&Ray, &Sphere) -> Solution> Routine for F {
         for (ray, sphere) in problems {
             let mut ray = *ray;
             ray.origin.x = f32::from_bits(ray.origin.x.to_bits() | (last & none));
-            let answer = self(&ray, sphere);
+            let answer = self.solve(&ray, sphere);
             last = answer.near.to_bits() ^ answer.far.to_bits() ^ answer.class as u32;
         }
         last
     }
 }
 
-/// A method: its single call, and what it makes of arrays.
-struct Of<F> {
-    method: Method,
-    single: F,
-}
-
-impl<F: Fn(&Ray, &Sphere) -> Solution> Routine for Of<F> {
-    fn solve_all(&self, problems: &[Problem], answers: &mut [Solution]) {
-        self.single.solve_all(problems, answers);
-    }
-
-    fn solve_arrays(&self, arrays: &Arrays, answers: &mut Solutions) {
-        arrays.batch().solve(self.method, answers);
-    }
-
-    fn solve_chain(&self, problems: &[Problem]) -> u32 {
-        self.single.solve_chain(problems)
+impl<F: Fn(&Ray, &Sphere) -> Solution> Routine for F {
+    fn solve(&self, ray: &Ray, sphere: &Sphere) -> Solution {
+        self(ray, sphere)
     }
 }
 
@@ -112,26 +94,40 @@ pub fn is_timed(method: Method) -> bool {
     method != Method::Contracted || simd::has_fma()
 }
 
-/// The routine of a method.
-#[expect(
-    clippy::inline_always,
-    reason = "what is timed is the method in a loop, not a call that the loops have in common"
-)]
+/// Somebody's own routine: a method that is known when the program runs.
+struct Own(Method);
+
+impl Routine for Own {
+    fn solve(&self, ray: &Ray, sphere: &Sphere) -> Solution {
+        self.0.solve(ray, sphere)
+    }
+
+    fn solve_arrays(&self, arrays: &Arrays, answers: &mut Solutions) {
+        arrays.batch().solve(self.0, answers);
+    }
+}
+
+/// The routine of a method. Left to the compiler, a formula that several loops call is a call in each, which waits for
+/// what the last ray left in its registers.
 pub fn routine(method: Method) -> Box<dyn Routine> {
     macro_rules! of {
         ($($variant:ident),*) => {
             match method {
                 $(Method::$variant => {
-                    #[inline(always)]
-                    fn single(ray: &Ray, sphere: &Sphere) -> Solution {
-                        Method::$variant.solve(ray, sphere)
+                    struct $variant;
+                    impl Routine for $variant {
+                        #[inline(always)]
+                        fn solve(&self, ray: &Ray, sphere: &Sphere) -> Solution {
+                            Method::$variant.solve(ray, sphere)
+                        }
+
+                        fn solve_arrays(&self, arrays: &Arrays, answers: &mut Solutions) {
+                            arrays.batch().solve(Method::$variant, answers);
+                        }
                     }
-                    Box::new(Of { method, single })
+                    Box::new($variant)
                 })*
-                Method::Routine(_) => Box::new(Of {
-                    method,
-                    single: move |ray: &Ray, sphere: &Sphere| method.solve(ray, sphere),
-                }),
+                Method::Routine(_) => Box::new(Own(method)),
             }
         };
     }
@@ -632,6 +628,9 @@ mod tests {
     struct Worker(Workshop, [u64; 3]);
 
     impl Routine for Worker {
+        fn solve(&self, _: &Ray, _: &Sphere) -> Solution {
+            Solution::MISS
+        }
         fn solve_all(&self, problems: &[Problem], _: &mut [Solution]) {
             let Self(Workshop(now), [each, ..]) = self;
             now.set(now.get() + each * problems.len() as u64);
@@ -719,6 +718,9 @@ mod tests {
     struct Tiring(Workshop, Cell<u64>);
 
     impl Routine for Tiring {
+        fn solve(&self, _: &Ray, _: &Sphere) -> Solution {
+            Solution::MISS
+        }
         fn solve_all(&self, problems: &[Problem], _: &mut [Solution]) {
             let Self(Workshop(now), each) = self;
             each.set(each.get() + 1);
