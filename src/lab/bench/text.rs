@@ -310,30 +310,35 @@ fn footer(bench: &Benchmark) -> Vec<String> {
             check.name, check.ratio, check.least, check.most
         )
     }));
-    out.push(format!("times_trusted: {}", bench.times_trusted()));
-    out.extend(
-        bench
-            .complaints()
-            .into_iter()
-            .map(|why| format!("  not trusted: {why}")),
-    );
+    out.extend(verdict(bench));
     out
 }
 
-/// The report in Markdown: overviews of errors and times; for each set a table of errors, which are the same
-/// everywhere, and one of times, which are not.
+/// Whether the times are to be trusted, and why not.
+fn verdict(bench: &Benchmark) -> impl Iterator<Item = String> {
+    let verdict = format!("times_trusted: {}", bench.times_trusted());
+    let complaints = bench.complaints().into_iter();
+    std::iter::once(verdict).chain(complaints.map(|why| format!("  not trusted: {why}")))
+}
+
+/// The report in Markdown: what to use, and overviews of times and errors; for each set a table of errors, which are the
+/// same everywhere, and one of times, which are not.
 pub fn markdown(bench: &Benchmark, machine: &Machine, against: Option<&[String]>) -> Report {
     let start = Report::new()
-        .fixed(header(bench, machine))
+        .fixed(header(bench, machine).into_iter().chain(verdict(bench)).collect())
         .table(answer::table(bench))
         .items(answer::LEGEND.map(str::to_owned).into())
-        .table(error_overview(bench))
-        .words("One by one, rays not seen before:")
+        .words(
+            "Median nanoseconds for one solve; in brackets how many times that of `textbook`, the median over the \
+             rounds, ≈ where the two are not told apart. One by one, rays not seen before:",
+        )
         .table(time_overview(bench, |times| ways(times)[0]))
         .words("One by one, a few rays again and again, which the processor learns:")
         .table(time_overview(bench, |times| ways(times)[1]))
         .words("In arrays, a few rays again and again:")
-        .table(time_overview(bench, |times| ways(times)[2]));
+        .table(time_overview(bench, |times| ways(times)[2]))
+        .words("Wrong answers, and the 99th percentile of the error in ulp:")
+        .table(error_overview(bench));
     let sets = bench.sets.iter();
     sets.fold(start, |report, set| {
         report
@@ -411,7 +416,7 @@ fn time_overview(bench: &Benchmark, way: fn(&Times) -> &Timing) -> Table {
         };
         let timing = way(times);
         let told = |ratio: f64| format!("{ratio:.2}");
-        let ratio = ratio(timing, way(first), "not told apart", told);
+        let ratio = ratio(timing, way(first), "≈", told);
         format!("{} ({ratio})", brief(timing.ns.median))
     })
 }
