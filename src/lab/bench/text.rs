@@ -386,17 +386,21 @@ pub fn error_overview(bench: &Benchmark) -> Table {
             0 => "–".to_owned(),
             _ => brief(errors.ulp.p99),
         };
-        let rays = set.census.rays;
-        let wrong = wrong_by_kind(&errors.wrong);
-        let parts = wrong.into_iter().filter(|(count, _)| *count > 0);
-        let parts = parts.map(|(count, what)| format!("{} {what}", percent(count, rays)));
-        let parts: Vec<String> = parts.chain([p99]).collect();
-        match parts.split_last() {
-            Some((p99, [])) => p99.clone(),
-            Some((p99, wrong)) => format!("**{}**, {p99}", wrong.join(" + ")),
-            None => String::new(),
+        match wrong_in_words(&errors.wrong, set.census.rays) {
+            Some(wrong) => format!("{wrong}, {p99}"),
+            None => p99,
         }
     })
+}
+
+/// The shares of wrong answers for Markdown, each with its kind, if there are any.
+pub(crate) fn wrong_in_words(wrong: &FaultCounts, rays: usize) -> Option<String> {
+    let kinds = wrong_by_kind(wrong).into_iter();
+    let parts: Vec<String> = kinds
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, what)| format!("{} {what}", percent(count, rays)))
+        .collect();
+    (!parts.is_empty()).then(|| format!("**{}**", parts.join(" + ")))
 }
 
 /// How many answers have a wrong hit or miss, a wrong count, or are no number, with a word for each.

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::theory::{AGREEMENT, agree};
 use super::{Check, DialSetting, MethodErrors, Stability, Sweep, bits_lost, invariance};
-use crate::lab::bench::text::code;
+use crate::lab::bench::text::{code, wrong_in_words};
 use crate::lab::numbers;
 use crate::lab::second::Clearance;
 use crate::method::Method;
@@ -396,17 +396,9 @@ fn by_method(stability: &Stability, first: Column) -> impl Iterator<Item = Colum
 }
 
 fn in_words(cell: &MethodErrors, rays: usize) -> String {
-    let wrong = match cell.errors.wrong.total() {
-        0 => String::new(),
-        wrong => format!("**{} %**", in_percent(wrong, rays)),
-    };
-    let bits = cell
-        .bits_median()
-        .zip(cell.bits_worst())
+    let bits = cell.bits_median().zip(cell.bits_worst());
+    let bits = bits
         .map(|(median, worst)| format!("{median:.0}/{worst:.0} bits, blame {}", blame(cell, 0)));
-    match (wrong.is_empty(), bits) {
-        (true, bits) => bits.unwrap_or_default(),
-        (false, Some(bits)) => format!("{wrong}, {bits}"),
-        (false, None) => wrong,
-    }
+    let parts = [wrong_in_words(&cell.errors.wrong, rays), bits];
+    parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
 }
