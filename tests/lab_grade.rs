@@ -106,6 +106,80 @@ fn each_fault_is_counted_as_what_it_is() {
 }
 
 #[test]
+fn of_each_fault_the_row_with_the_fewest_digits_is_shown() {
+    // Two false misses, the second in fewer digits; a false hit; a right answer.
+    let rows = [
+        "miss,,,20.5,20,0,0,0,1,20,20,20,10\n".to_owned(),
+        format!("miss,,,{SECANT}"),
+        format!("hit,1,2,{MISS}"),
+        format!("hit,20,20,{TANGENT}"),
+    ];
+    let input = HEADER.to_owned() + &rows.concat();
+    let json = rayscope(&["grade", "-", "--format", "json"], &input);
+    let json: Value = serde_json::from_slice(&json.stdout).unwrap();
+    let simplest = json["simplest"].as_array().unwrap();
+    let of = |i: usize, field: &str| simplest[i][field].clone();
+    assert_eq!(simplest.len(), 2);
+    assert_eq!(
+        (of(0, "fault"), of(0, "count")),
+        ("false hit".into(), 1.into())
+    );
+    assert_eq!(
+        (of(1, "fault"), of(1, "count")),
+        ("false miss".into(), 2.into())
+    );
+    assert_eq!(of(1, "input")[0], "0x1.4p+4");
+    assert_eq!(of(1, "given")["class"], "miss");
+    assert_eq!(of(1, "exact")["near"], 10.0);
+    let text = rayscope(&["grade", "-"], &input);
+    let text = String::from_utf8(text.stdout).unwrap();
+    let said = "false miss, the simplest of 2: given miss; exact secant 10, 30";
+    assert!(text.contains(said), "{text}");
+    assert!(
+        text.contains("--ray=20,20,0,0,0,1 --sphere=20,20,20,10"),
+        "{text}"
+    );
+}
+
+#[test]
+fn answers_with_times_are_drawn_beside_the_methods_here() {
+    let folder = tempfile::tempdir().unwrap();
+    let chart = folder.path().join("chart.svg");
+    let plot = chart.to_str().unwrap();
+    let header = HEADER.replace("r\n", "r,ns\n");
+    let timed = |ns: &str| SECANT.replace('\n', &format!(",{ns}\n"));
+    let rows = format!(
+        "{header}miss,,,{}secant,10,30,{}",
+        timed("5.5"),
+        timed("6.5")
+    );
+    let output = rayscope(&["grade", "-", "--plot", plot], &rows);
+    assert!(output.status.success(), "{output:?}");
+    let svg = std::fs::read_to_string(&chart).unwrap();
+    for shown in [
+        ">given<",
+        ">exact<",
+        ">50/0 %<",
+        "false miss, the one there is",
+        "--ray=20,20",
+    ] {
+        assert!(svg.contains(shown), "{shown}: {svg}");
+    }
+    // Without times, or with none, there is nothing to draw, and the file that is there stays.
+    let bare = HEADER.to_owned() + "secant,10,30," + SECANT;
+    let none = format!("{header}secant,10,30,{}", timed("0"));
+    for (input, expected) in [
+        (bare, "there is no column ns"),
+        (none, "column ns: `0`; expected nanoseconds"),
+    ] {
+        let output = rayscope(&["grade", "-", "--plot", plot], &input);
+        assert_eq!(output.status.code(), Some(1), "{output:?}");
+        assert!(String::from_utf8(output.stderr).unwrap().contains(expected));
+        assert_eq!(std::fs::read_to_string(&chart).unwrap(), svg);
+    }
+}
+
+#[test]
 fn a_bad_row_is_named_and_the_others_are_graded() {
     let rows = [
         format!("secant,10,30,{SECANT}"),
@@ -160,7 +234,7 @@ fn the_table_shows_the_given_answers_first_and_the_worst_input_as_a_command() {
             .unwrap_or_else(|| panic!("{word} is not in {text}"))
     };
     assert!(at("> given") < at("textbook"));
-    assert!(text.contains("first wrong answer given: false miss"));
+    assert!(text.contains("false miss, the one there is: given miss; exact tangent 20, 20"));
     assert!(text.contains("rayscope solve --ray=20,20,0,0,0,1 --sphere=20,20,20,10"));
     assert!(
         text.lines().all(|line| line.chars().count() <= 80),

@@ -17,7 +17,7 @@ use crate::door::{Expected, shown};
 use crate::lab::bench::{self, BenchPlan, Benchmark, Earlier, Extras, MOST_TIMED, Sample};
 use crate::lab::chart::{ChartAxes, ErrorAxis, TimeAxis};
 use crate::lab::frames::{self, FrameSchedule};
-use crate::lab::timing::{Schedule, SelfCheck, SystemClock, UNSEEN};
+use crate::lab::timing::{Schedule, SelfCheck, SystemClock};
 use crate::lab::{BenchLock, BenchQueue, Family, Machine, plot};
 use crate::method::Method;
 use crate::render::{CELL_ASPECT, Style, fit};
@@ -122,7 +122,10 @@ pub(super) fn run(arguments: &BenchArgs) -> Outcome {
     let length = length_of(arguments, samples.len());
     let lock = right_to_measure(length, &progress);
     let mut measured = bench::run(
-        plan(arguments, &methods),
+        BenchPlan {
+            methods: &methods,
+            schedule: Schedule::new(arguments.sweep.quick, arguments.sweep.seed),
+        },
         &samples,
         arguments.sweep.seed,
         &SystemClock::new(),
@@ -166,7 +169,10 @@ fn length_of(arguments: &BenchArgs, parts: usize) -> Duration {
 
 /// The right to measure, in turn; none if others keep it for much longer than they said, or if
 /// somebody waits no longer.
-fn right_to_measure(length: Duration, progress: &Progress) -> io::Result<Option<BenchLock>> {
+pub(super) fn right_to_measure(
+    length: Duration,
+    progress: &Progress,
+) -> io::Result<Option<BenchLock>> {
     const PATIENCE: u32 = 4;
     let mut deadline = None;
     BenchQueue::of_host().wait(length, |wait| {
@@ -230,18 +236,6 @@ fn run_screens(arguments: &BenchArgs, scene: &OsStr) -> Outcome {
     } else {
         DONE
     })
-}
-
-fn plan<'a>(arguments: &BenchArgs, methods: &'a [Method]) -> BenchPlan<'a> {
-    BenchPlan {
-        methods,
-        schedule: Schedule {
-            rounds: if arguments.sweep.quick { 15 } else { 101 },
-            passes: if arguments.sweep.quick { 2 } else { 8 },
-            unseen: UNSEEN,
-            seed: arguments.sweep.seed,
-        },
-    }
 }
 
 fn samples(arguments: &BenchArgs) -> Result<Vec<Sample>, Failure> {

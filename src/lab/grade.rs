@@ -3,8 +3,10 @@
 use serde::Serialize;
 
 use super::bench::text::{brief, error_lines};
-use super::errors::{Census, Errors, FaultCounts, Percentiles, Worst};
+use super::bench::{BenchPlan, Benchmark, Sample};
+use super::errors::{Census, Errors, Fault, FaultCounts, Judgement, Percentiles, Worst, judge};
 use super::numbers;
+use super::timing::Clock;
 use super::{Problem, Reference};
 use crate::method::format::binary32;
 use crate::method::{Class, Method, Solution};
@@ -41,8 +43,23 @@ pub struct Grade {
     pub census: Census,
     /// The errors of the claims.
     pub claimed: Errors,
+    /// For each kind of fault the simplest claim that has it.
+    pub simplest: Vec<FaultyClaim>,
     /// The errors of our methods on the same rays.
     pub ours: Vec<(Method, Errors)>,
+}
+
+/// A claim with a fault, beside the truth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FaultyClaim {
+    /// What is wrong.
+    pub fault: Fault,
+    /// What was asked.
+    pub problem: Problem,
+    /// What was said.
+    pub given: Solution,
+    /// What is right.
+    pub exact: Solution,
 }
 
 /// Holds claims against the truth.
@@ -59,9 +76,67 @@ pub fn grade(problems: &[Problem], claims: &[Claim]) -> Grade {
     });
     Grade {
         census: Census::of(&references),
+        simplest: simplest(problems, &references, &answers),
         claimed: Errors::of_answers(problems, &references, answers),
         ours: ours.into(),
     }
+}
+
+/// For each kind of fault the claim whose ten numbers take the fewest digits; of equals the first.
+fn simplest(
+    problems: &[Problem],
+    references: &[Reference],
+    answers: &[Solution],
+) -> Vec<FaultyClaim> {
+    let judged = answers.iter().zip(references).zip(problems);
+    let faulty = judged.filter_map(|((given, truth), problem)| match judge(truth, given) {
+        Judgement::Wrong(fault) => Some(FaultyClaim {
+            fault,
+            problem: *problem,
+            given: *given,
+            exact: truth.solution,
+        }),
+        Judgement::Agreed(_) => None,
+    });
+    let mut found: Vec<(usize, FaultyClaim)> = Vec::new();
+    for claim in faulty {
+        let digits = digits(&claim.problem);
+        match found.iter_mut().find(|(_, one)| one.fault == claim.fault) {
+            None => found.push((digits, claim)),
+            Some(one) if digits < one.0 => *one = (digits, claim),
+            Some(_) => {}
+        }
+    }
+    found.sort_by_key(|(_, claim)| claim.fault);
+    found.into_iter().map(|(_, claim)| claim).collect()
+}
+
+/// How many digits it takes to write a problem down; a 0 takes none.
+fn digits(problem: &Problem) -> usize {
+    let written = numbers(problem).map(|x| binary32(x, Glyphs::Ascii).to_string());
+    let significant = |text: &String| {
+        let digits = text.trim_start_matches(['-', '0', '.']);
+        digits.bytes().filter(u8::is_ascii_digit).count()
+    };
+    written.iter().map(significant).sum()
+}
+
+/// The claims, which took these nanoseconds each, timed beside our methods on the same rays.
+pub fn time(
+    grade: &Grade,
+    problems: &[Problem],
+    nanoseconds: &[f64],
+    plan: BenchPlan,
+    clock: &dyn Clock,
+    go_on: impl FnMut(usize, &str) -> bool,
+) -> Benchmark {
+    let sample = Sample::of_rows("the rows", problems.to_vec(), plan.schedule.seed);
+    let seed = plan.schedule.seed;
+    let mut measured = super::bench::run(plan, &[sample], seed, clock, go_on);
+    for set in &mut measured.sets {
+        set.add(CLAIMED, grade.claimed.clone(), nanoseconds);
+    }
+    measured
 }
 
 /// The name of somebody else's answers.
@@ -74,9 +149,17 @@ pub fn text(grade: &Grade) -> Report {
         .chain(ours)
         .collect();
     let errors = &grade.claimed;
-    let first = errors.first_wrong.as_ref().map(|(problem, fault)| {
-        let sentence = format!("first wrong answer given: {}", fault.name());
-        input(sentence, problem)
+    let simplest = grade.simplest.iter().map(|claim| {
+        let count = errors.wrong.of(claim.fault);
+        let which = if count == 1 {
+            "the one there is".to_owned()
+        } else {
+            format!("the simplest of {count}")
+        };
+        let [given, exact] = [claim.given, claim.exact].map(|answer| in_words(&answer));
+        let fault = claim.fault.name();
+        let sentence = format!("{fault}, {which}: given {given}; exact {exact}");
+        input(sentence, &claim.problem)
     });
     let largest = errors.worst.as_ref().map(|Worst { problem, error }| {
         let sentence = format!(
@@ -88,7 +171,16 @@ pub fn text(grade: &Grade) -> Report {
         input(sentence, problem)
     });
     let table = Report::new().table(error_lines(&grade.census, &rows));
-    first.into_iter().chain(largest).fold(table, Report::then)
+    simplest.chain(largest).fold(table, Report::then)
+}
+
+/// The class, and the roots of what meets the sphere.
+fn in_words(answer: &Solution) -> String {
+    let root = |t: f32| binary32(t, Glyphs::Ascii);
+    match answer.class {
+        class @ (Class::Miss | Class::Nan) => class.to_string(),
+        class => format!("{class} {}, {}", root(answer.near), root(answer.far)),
+    }
 }
 
 /// A problem in hexadecimal, and as the command that works it out step by step.
@@ -118,6 +210,34 @@ struct GradeJson {
     #[serde(flatten)]
     census: Census,
     results: Vec<AnswersJson>,
+    simplest: Vec<FaultyJson>,
+}
+
+#[derive(Serialize)]
+struct FaultyJson {
+    fault: &'static str,
+    count: usize,
+    input: [String; 10],
+    given: AnswerJson,
+    exact: AnswerJson,
+}
+
+#[derive(Serialize)]
+struct AnswerJson {
+    class: &'static str,
+    near: Option<f32>,
+    far: Option<f32>,
+}
+
+impl AnswerJson {
+    fn of(answer: &Solution) -> Self {
+        let root = |t: f32| answer.class.meets().then_some(t);
+        Self {
+            class: answer.class.name(),
+            near: root(answer.near),
+            far: root(answer.far),
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -153,11 +273,19 @@ impl AnswersJson {
 pub fn json(grade: &Grade) -> String {
     let rays = grade.census.rays;
     let ours = grade.ours.iter();
+    let faulty = |claim: &FaultyClaim| FaultyJson {
+        fault: claim.fault.name(),
+        count: grade.claimed.wrong.of(claim.fault),
+        input: numbers(&claim.problem).map(hexadecimal),
+        given: AnswerJson::of(&claim.given),
+        exact: AnswerJson::of(&claim.exact),
+    };
     report::json(&GradeJson {
         rayscope: env!("CARGO_PKG_VERSION"),
         census: grade.census,
         results: std::iter::once(AnswersJson::of(CLAIMED, rays, &grade.claimed))
             .chain(ours.map(|(method, errors)| AnswersJson::of(method.name(), rays, errors)))
             .collect(),
+        simplest: grade.simplest.iter().map(faulty).collect(),
     })
 }

@@ -243,6 +243,18 @@ pub struct Schedule {
     pub seed: u64,
 }
 
+impl Schedule {
+    /// The usual run, or a quick one.
+    pub const fn new(quick: bool, seed: u64) -> Self {
+        Self {
+            rounds: if quick { 15 } else { 101 },
+            passes: if quick { 2 } else { 8 },
+            unseen: UNSEEN,
+            seed,
+        }
+    }
+}
+
 /// So many rays no branch predictor remembers; two thousand it does.
 pub const UNSEEN: usize = 1 << 17;
 

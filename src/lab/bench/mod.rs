@@ -18,7 +18,9 @@ use crate::lab::families::Family;
 use crate::lab::machine;
 use crate::lab::reference::Reference;
 use crate::lab::second::SecondRays;
-use crate::lab::timing::{self, Clock, Routine, Schedule, SelfCheck, TimedRays, TimedRun, Times};
+use crate::lab::timing::{
+    self, Clock, Routine, Schedule, SelfCheck, TimedRays, TimedRun, Times, Timing,
+};
 use crate::method::Method;
 use crate::method::exact::{self, Stage};
 use crate::random::Random;
@@ -44,6 +46,8 @@ enum Source {
     Family(&'static str, u64),
     /// A picture's, which can be looked at in finer pixels; the seed of the lots.
     Picture(Box<(Scene, Rays)>, u64),
+    /// No others: those there are, drawn by lot, in an order that no processor knows; the seed of the lots.
+    Rows(u64),
 }
 
 /// Every ray of a picture with every sphere, row by row.
@@ -124,6 +128,16 @@ impl Sample {
         }
     }
 
+    /// Rays from somebody's file.
+    pub fn of_rows(name: &str, problems: Vec<Problem>, seed: u64) -> Self {
+        Self {
+            name: name.to_owned(),
+            about: format!("{} rays from a file.", problems.len()),
+            problems,
+            source: Source::Rows(seed),
+        }
+    }
+
     /// So many rays of the same kind that no ray is known by the time it comes again; of a picture, in
     /// finer pixels.
     fn unseen(&self, count: usize) -> Vec<Problem> {
@@ -136,6 +150,14 @@ impl Sample {
                 let all = PictureProblems { scene, rays: *rays };
                 all.finer(count).sample(count, *seed)
             }
+            Source::Rows(seed) => {
+                let mut random = Random::new(*seed);
+                let all = self.problems.len();
+                let count = if all == 0 { 0 } else { count };
+                (0..count)
+                    .map(|_| self.problems[random.below(all as u64) as usize])
+                    .collect()
+            }
         }
     }
 
@@ -143,7 +165,7 @@ impl Sample {
     fn kind(&self) -> String {
         let family = match &self.source {
             Source::Family(name, _) => Family::by_name(name),
-            Source::Picture(..) => None,
+            Source::Picture(..) | Source::Rows(_) => None,
         };
         family.map_or_else(|| self.name.clone(), |family| family.kind.name().to_owned())
     }
@@ -236,6 +258,26 @@ pub struct MeasuredSet {
     pub run: TimedRun,
     /// The methods, in the order of the plan.
     pub rows: Vec<MeasuredMethod>,
+}
+
+impl MeasuredSet {
+    /// Adds answers that somebody else gave, and the nanoseconds that each took.
+    pub fn add(&mut self, name: &'static str, errors: Errors, nanoseconds: &[f64]) {
+        let first = self.run.times.first().map(|times| times.unseen.ns.median);
+        let first = vec![first.unwrap_or_default(); nanoseconds.len()];
+        self.rows.push(MeasuredMethod {
+            method: name,
+            errors,
+            times: Some(Times {
+                unseen: Timing::of(nanoseconds.to_vec(), &first),
+                ..Times::default()
+            }),
+            second: SecondRays::default(),
+            stages: None,
+            pareto: Pareto::Beaten,
+        });
+        mark_pareto(&mut self.rows);
+    }
 }
 
 /// Measures all methods of a plan on one set; none if `go_on` said no.

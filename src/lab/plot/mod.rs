@@ -10,7 +10,7 @@ mod svg;
 mod work;
 
 pub use dials::stability;
-pub use work::work_precision;
+pub use work::{graded, work_precision};
 
 use super::chart::Scale;
 use svg::{Marker, Stroke, Svg, TextAnchor};
@@ -28,7 +28,9 @@ fn look(method: &str) -> (&'static str, Marker) {
         "haines" => ("#009e73", Marker::Triangle),
         "kahan" => ("#cc79a7", Marker::Circle),
         "double" => ("#0072b2", Marker::Plus),
-        _ => ("#000000", Marker::Ring),
+        "exact" => ("#000000", Marker::Ring),
+        // Somebody's own.
+        _ => ("#5d3a9b", Marker::Star),
     }
 }
 

@@ -47,6 +47,7 @@ pub(super) enum Marker {
     Cross,
     Nabla,
     Ring,
+    Star,
 }
 
 impl Svg {
@@ -136,6 +137,16 @@ impl Svg {
     }
 
     /// Text that reads upwards, centred on its point.
+    /// A line of characters of one width, blanks kept.
+    pub fn fixed(&mut self, [x, y]: [f64; 2], text: &str, size: f64, color: &str) {
+        let _ = writeln!(
+            self.body,
+            "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\" fill=\"{color}\" \
+             font-family=\"monospace\" xml:space=\"preserve\">{}</text>",
+            escaped(text)
+        );
+    }
+
     pub fn text_upwards(&mut self, [x, y]: [f64; 2], text: &str, size: f64, color: &str) {
         let _ = writeln!(
             self.body,
@@ -171,6 +182,15 @@ impl Svg {
             ),
             Marker::Circle => self.circle(at, R, color, "none"),
             Marker::Ring => self.circle(at, R, "#ffffff", color),
+            Marker::Star => {
+                // Ten corners, by turns far and near, the first on top.
+                let corners: [[f64; 2]; 10] = std::array::from_fn(|i| {
+                    let radius = if i % 2 == 0 { 1.6 * R } else { 0.65 * R };
+                    let (sine, cosine) = (std::f64::consts::PI * i as f64 / 5.0).sin_cos();
+                    [x + radius * sine, y - radius * cosine]
+                });
+                self.polygon(&corners, color);
+            }
             Marker::Cross => {
                 let stroke = Stroke::solid(color, 2.5);
                 self.line([x - R, y - R], [x + R, y + R], stroke);

@@ -14,18 +14,33 @@ const PANEL: [f64; 2] = [320.0, 230.0];
 const GAP: [f64; 2] = [72.0, 68.0];
 const LEFT: f64 = 58.0;
 const TOP: f64 = 112.0;
+/// The width of the lines above the panels.
+const HEADER: f64 = 960.0;
+/// The height of a line of text below the panels.
+const NOTE: f64 = 14.0;
 
-/// The chart of a report as an SVG document: all sets in one panel, then each in its own.
+/// The chart of a report as an SVG document: all sets in one panel if there are several, then each in its own.
 pub fn work_precision(report: &Benchmark, machine: &Machine, axes: ChartAxes) -> String {
+    chart(report, machine, axes, &[])
+}
+
+/// The chart of graded answers as an SVG document, with lines of text below it.
+pub fn graded(report: &Benchmark, machine: &Machine, notes: &[&str]) -> String {
+    chart(report, machine, ChartAxes::default(), notes)
+}
+
+fn chart(report: &Benchmark, machine: &Machine, axes: ChartAxes, notes: &[&str]) -> String {
     let sets: Vec<Vec<WorkPoint>> = report
         .sets
         .iter()
         .map(|set| work_points(set, axes))
         .collect();
-    let panels = 1 + report.sets.len();
-    let columns = panels.clamp(2, COLUMNS);
-    let width = LEFT + columns as f64 * (PANEL[0] + GAP[0]) - 20.0;
-    let height = TOP + panels.div_ceil(COLUMNS) as f64 * (PANEL[1] + GAP[1]);
+    let overviews = usize::from(sets.len() > 1);
+    let panels = overviews + sets.len();
+    let columns = panels.clamp(1, COLUMNS);
+    let width = (LEFT + columns as f64 * (PANEL[0] + GAP[0]) - 20.0).max(HEADER);
+    let below = TOP + panels.div_ceil(COLUMNS) as f64 * (PANEL[1] + GAP[1]);
+    let height = below + NOTE * notes.len() as f64;
     let mut svg = Svg::new(width, height, "Error against run time");
     header(&mut svg, report, machine);
     let times = span(&sets);
@@ -38,11 +53,18 @@ pub fn work_precision(report: &Benchmark, machine: &Machine, axes: ChartAxes) ->
         x: errors(axes.x),
         y: times,
     };
-    overview(&mut svg, &panel(0), &sets, axes);
+    if overviews > 0 {
+        overview(&mut svg, &panel(0), &sets, axes);
+    }
     for (i, (set, points)) in report.sets.iter().zip(sets).enumerate() {
         let title = format!("{}, {} rays", set.name, set.census.rays);
-        frame(&mut svg, &panel(i + 1), &title, axes);
-        draw(&mut svg, &panel(i + 1), points, set.census.rays);
+        let panel = panel(overviews + i);
+        frame(&mut svg, &panel, &title, axes);
+        draw(&mut svg, &panel, points, set.census.rays);
+    }
+    for (i, note) in notes.iter().enumerate() {
+        let at = [16.0, below + NOTE * i as f64];
+        svg.fixed(at, note, 10.0, INK);
     }
     svg.finish()
 }
@@ -308,6 +330,7 @@ fn text_color(method: &str) -> &'static str {
         "haines" => "#007d5b",
         "kahan" => "#a3507d",
         "double" => "#005f94",
-        _ => "#000000",
+        "exact" => "#000000",
+        _ => "#5d3a9b",
     }
 }
