@@ -13,7 +13,7 @@ use ratatui::crossterm::event::{Event, KeyCode, KeyEvent, KeyModifiers};
 use ratatui::layout::Rect;
 use rayscope::explorer::{Explorer, Options, Workplace};
 use rayscope::lab::check::check;
-use rayscope::lab::families::Family;
+use rayscope::lab::{families::Family, numbers};
 use rayscope::method::source::{SourceLanguage, source};
 use rayscope::method::{Class, Method, RoutineId};
 use rayscope::routine::Language;
@@ -230,6 +230,32 @@ fn each_slip_is_recognised_and_its_line_found() {
         assert_eq!(found.right, slip.is_empty());
         assert_eq!(found.line, line, "{slip}");
     }
+}
+
+#[test]
+fn contraction_can_be_asked_for_and_ruled_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let [rays, own, off] = ["rays.csv", "own.glsl", "off.glsl"].map(path);
+    let mut rows = String::from("ox,oy,oz,dx,dy,dz,cx,cy,cz,r\n");
+    for problem in Family::by_name("tangent").unwrap().sample(1, 300) {
+        rows += &(numbers(&problem).map(|x| x.to_string()).join(",") + "\n");
+    }
+    let text = fs::read_to_string("tests/routines/textbook.glsl").unwrap();
+    fs::write(&rays, rows).unwrap();
+    fs::write(&own, &text).unwrap();
+    fs::write(&off, format!("// contraction: off\n{text}")).unwrap();
+    let answers = |method: &str, flags: &[&str]| {
+        let batch = ["solve", "--batch", &rays, "--method", method];
+        let (rows, error, status) = rayscope(&[&batch, flags].concat());
+        assert_eq!(status, 0, "{error}");
+        let answer = |row: &str| row.split(',').skip(10).take(3).map(str::to_owned).collect();
+        rows.lines().map(answer).collect::<Vec<Vec<String>>>()
+    };
+    let contracted = answers("contracted", &[]);
+    assert_eq!(answers(&own, &["--contract"]), contracted);
+    assert_ne!(answers(&own, &[]), contracted);
+    assert_eq!(answers(&off, &["--contract"]), answers("textbook", &[]));
 }
 
 fn rayscope(arguments: &[&str]) -> (String, String, i32) {

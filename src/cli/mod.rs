@@ -52,6 +52,11 @@ struct Arguments {
 
     #[command(flatten)]
     explore: explore::Explore,
+
+    /// Fuse products into sums in routines, as compilers do unasked where the processor has fused multiply-adds
+    #[cfg(feature = "routine")]
+    #[arg(long, global = true)]
+    contract: bool,
 }
 
 #[derive(Debug, Subcommand)]
@@ -82,6 +87,10 @@ pub fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Outcome {
+    #[cfg(feature = "routine")]
+    if arguments.contract {
+        Method::contract_routines();
+    }
     match &arguments.command {
         None => explore::run(&arguments.explore),
         #[cfg(feature = "routine")]

@@ -116,6 +116,13 @@ impl Method {
         name.contains(['.', '/'])
     }
 
+    /// From now on the routines that [`Self::load`] reads have their products fused into sums, as compilers do unasked
+    /// for processors with fused multiply-adds; unless a text says otherwise.
+    #[cfg(feature = "routine")]
+    pub fn contract_routines() {
+        routine::contract();
+    }
+
     /// The routine in a file, under that name.
     pub fn load(name: &str, path: &Path) -> Result<Self, FileError> {
         RoutineId::load(name, path).map(Self::Routine)

@@ -6,6 +6,7 @@
 use std::cell::RefCell;
 use std::collections::VecDeque;
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, PoisonError, RwLock};
 
 use super::batch::{Batch, Scalars, Vectors};
@@ -44,6 +45,14 @@ struct Shelf {
     versions: VecDeque<(u32, Arc<LearntRoutine>)>,
 }
 
+/// Whether texts that are read from now on are contracted.
+static CONTRACTS: AtomicBool = AtomicBool::new(false);
+
+/// Routines that are read from now on fuse products into sums, where their text does not say otherwise.
+pub(super) fn contract() {
+    CONTRACTS.store(true, Ordering::Relaxed);
+}
+
 static LIBRARY: RwLock<Vec<Shelf>> = RwLock::new(Vec::new());
 
 /// What a file of a routine should be.
@@ -79,7 +88,7 @@ impl RoutineId {
         if let Some(known) = Self::of_text(key, text) {
             return Ok(known);
         }
-        let program = routine::compile(text, language)?;
+        let program = routine::compile(text, language, CONTRACTS.load(Ordering::Relaxed))?;
         let routine = Arc::new(LearntRoutine {
             text: text.to_owned(),
             program,

@@ -51,15 +51,15 @@ impl std::error::Error for RoutineError {}
 
 /// Reads, checks and compiles the text of a routine.
 ///
-/// A comment line `// contraction: on` fuses a product with the sum or difference that uses it, as compilers for
-/// processors with fused multiply-adds do unasked.
-pub fn compile(text: &str, language: Language) -> Result<Program, RoutineError> {
+/// With contraction a product is fused with the sum or difference that uses it, as compilers for processors with
+/// fused multiply-adds do unasked. `contract` asks for it; a comment line `// contraction: on`, or `off`, has the last word.
+pub fn compile(text: &str, language: Language, contract: bool) -> Result<Program, RoutineError> {
     let source = guard::check(text, language)?;
     // The front end and the compiler recurse as deep as the text nests, which the guard bounds:
     // a stack of a size that suffices for that, whoever calls.
     let contract = source
         .said("contraction")
-        .is_some_and(|(_, said)| said == "on");
+        .map_or(contract, |(_, said)| said == "on");
     let work = move || {
         let module = front::parse(&source)?;
         compile::compile(&source, &module, contract)
