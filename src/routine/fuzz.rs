@@ -92,7 +92,7 @@ fn heap() -> impl Strategy<Value = String> {
 }
 
 fn holds(text: &str, language: Language) -> Result<(), TestCaseError> {
-    match compile(text, language) {
+    match compile(text, language, false) {
         Ok(program) => {
             let numbers = ([0.5, 0.25, -3.0], [0.0, 0.0, 1.0], [0.0; 3], 1.0);
             let (p0, d, c, r) = numbers;
@@ -163,7 +163,7 @@ fn what_is_deep_or_long_is_refused() {
         "x".repeat(100_000),
     ];
     for text in hostile {
-        let error = compile(&text, Language::Glsl).unwrap_err();
+        let error = compile(&text, Language::Glsl, false).unwrap_err();
         assert!(!error.problem.is_empty());
     }
     // What calls itself over and over is put in over and over.
@@ -173,7 +173,7 @@ fn what_is_deep_or_long_is_refused() {
         text = format!("{text}float f{i}(float x) {{ return {sum}; }}\n");
     }
     text += "float f(vec3 ro, vec3 rd, vec3 ce, float ra) { return f39(ra); }";
-    let error = compile(&text, Language::Glsl).unwrap_err();
+    let error = compile(&text, Language::Glsl, false).unwrap_err();
     assert!(error.problem.contains("too"), "{error}");
 }
 
@@ -187,7 +187,7 @@ fn a_loop_ends_after_ten_thousand_operations() {
         let text = format!(
             "float f(vec3 ro, vec3 rd, vec3 ce, float ra) {{ float x = 1.0; {body} return x; }}"
         );
-        let program = compile(&text, Language::Glsl).unwrap();
+        let program = compile(&text, Language::Glsl, false).unwrap();
         let outcome = ask(&program, [0.0; 3], [1.0; 3], [0.0; 3], 1.0);
         assert_eq!(outcome, RunOutcome::TooLong, "{body}");
     }
@@ -219,11 +219,11 @@ fn what_can_not_be_told_is_refused_in_a_sentence_with_its_line() {
         ("", "line 1: there is no function"),
     ];
     for (text, sentence) in cases {
-        let error = compile(text, Language::Glsl).unwrap_err().to_string();
+        let error = compile(text, Language::Glsl, false).unwrap_err().to_string();
         assert!(error.to_lowercase().starts_with(sentence), "{error}");
     }
     let said = "// roles: direction, origin, center, radius\nfloat f(vec3 rd, vec3 ro, vec3 ce, float ra) { return ro.x; }";
-    let program = compile(said, Language::Glsl).unwrap();
+    let program = compile(said, Language::Glsl, false).unwrap();
     assert_eq!(
         ask(&program, [7.0; 3], [1.0; 3], [0.0; 3], 1.0),
         RunOutcome::One(7.0)
