@@ -1,4 +1,5 @@
-//! Frames that follow each other allocate nothing. This binary counts, so it holds no other test.
+//! Frames that follow each other allocate nothing, and reading a routine takes a bounded amount of memory. This binary
+//! counts what is allocated, so it holds no other test.
 
 #![expect(
     unsafe_code,
@@ -7,6 +8,7 @@
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
@@ -22,18 +24,25 @@ thread_local! {
     static TAKEN: Cell<usize> = const { Cell::new(0) };
 }
 
-/// The system's allocator, which counts how often this thread asks it for memory.
+/// The bytes that are in use, and the most that have been since it was last set.
+static IN_USE: AtomicUsize = AtomicUsize::new(0);
+static MOST: AtomicUsize = AtomicUsize::new(0);
+
+/// The system's allocator, which counts how often this thread asks it for memory, and the bytes in use.
 struct Counting;
 
 // SAFETY: every call is handed on to the system's allocator as it is.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         TAKEN.set(TAKEN.get() + 1);
+        let in_use = IN_USE.fetch_add(layout.size(), Ordering::Relaxed) + layout.size();
+        MOST.fetch_max(in_use, Ordering::Relaxed);
         // SAFETY: the caller keeps the contract of `alloc`, which is the system's.
         unsafe { System.alloc(layout) }
     }
 
     unsafe fn dealloc(&self, memory: *mut u8, layout: Layout) {
+        IN_USE.fetch_sub(layout.size(), Ordering::Relaxed);
         // SAFETY: the memory is from `alloc` above, that is, from the system's allocator.
         unsafe { System.dealloc(memory, layout) }
     }
@@ -92,5 +101,69 @@ fn frames_that_follow_each_other_allocate_nothing() {
             round();
             assert_eq!(TAKEN.get(), before, "{method}, {}", view.name());
         }
+    }
+}
+
+#[cfg(feature = "routine")]
+mod routines {
+    use super::*;
+    use rayscope::routine::{LONGEST, Language, compile};
+
+    /// A routine around these statements, and functions before it.
+    fn with(functions: &str, body: &str) -> String {
+        format!(
+            "{functions}float f(vec3 ro, vec3 rd, vec3 ce, float ra) {{ float x = ra; {body} return x; }}"
+        )
+    }
+
+    /// As many copies of a piece as the longest text has room for.
+    fn full_of(piece: &str) -> String {
+        piece.repeat((LONGEST - 200) / piece.len())
+    }
+
+    #[test]
+    fn reading_a_routine_takes_bounded_memory() {
+        let doubling: String = (1..60)
+            .map(|i| {
+                format!(
+                    "float g{i}(float x) {{ return g{0}(x) + g{0}(x); }}\n",
+                    i - 1
+                )
+            })
+            .collect();
+        let doubling = format!("float g0(float x) {{ return x * x; }}\n{doubling}");
+        let functions: String = (0..1200)
+            .map(|i| format!("vec3 h{i}(vec3 v) {{ return v * {i}.5; }}\n"))
+            .collect();
+        let texts = [
+            with("", &full_of("x=x*x+ra;")),
+            with("", &full_of("if(x<1.)x+=ra;")),
+            with("", &full_of("{float y=x;x=y;}")),
+            with("", &full_of("x+=dot(ro*rd,ce+x);")),
+            with("", &full_of("for(int i=0;i<9;i++)x+=ra;")),
+            with(&doubling, "x = g59(x);"),
+            with(&doubling, "x = g11(x);"),
+            with(&functions, "x = h7(ro).x;"),
+            with(&full_of("struct S{vec3 a;};"), ""),
+            with(&full_of("#define A x\n"), ""),
+            full_of("("),
+            full_of("\u{e4}"),
+        ];
+        let mut dearest = 0;
+        for text in texts {
+            let before = IN_USE.load(Ordering::Relaxed);
+            MOST.store(before, Ordering::Relaxed);
+            let read = compile(&text, Language::Glsl, false);
+            let taken = MOST.load(Ordering::Relaxed) - before;
+            let start: String = text.chars().take(60).collect();
+            assert!(
+                taken < 32 << 20,
+                "{taken} bytes for {start}: {:?}",
+                read.map(|_| "read")
+            );
+            dearest = dearest.max(taken);
+        }
+        // What would not be counted is no bound.
+        assert!(dearest > 1 << 20, "{dearest}");
     }
 }

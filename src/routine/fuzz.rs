@@ -219,7 +219,9 @@ fn what_can_not_be_told_is_refused_in_a_sentence_with_its_line() {
         ("", "line 1: there is no function"),
     ];
     for (text, sentence) in cases {
-        let error = compile(text, Language::Glsl, false).unwrap_err().to_string();
+        let error = compile(text, Language::Glsl, false)
+            .unwrap_err()
+            .to_string();
         assert!(error.to_lowercase().starts_with(sentence), "{error}");
     }
     let said = "// roles: direction, origin, center, radius\nfloat f(vec3 rd, vec3 ro, vec3 ce, float ra) { return ro.x; }";
