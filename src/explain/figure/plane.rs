@@ -52,7 +52,7 @@ impl PlaneLine {
         b * b - 4 * a * c
     }
 
-    /// The x of each point in common, rounded to hundredths.
+    /// The x of each point in common, the least first, rounded to hundredths.
     fn roots(self) -> Vec<i64> {
         let [a, b, _] = self.coefficients().map(|n| n as f64);
         let root = (self.discriminant() as f64).sqrt();
@@ -60,7 +60,7 @@ impl PlaneLine {
         match self.discriminant() {
             ..0 => Vec::new(),
             0 => vec![x(0.0)],
-            _ => vec![x(1.0), x(-1.0)],
+            _ => vec![x(-1.0), x(1.0)],
         }
     }
 
@@ -69,8 +69,9 @@ impl PlaneLine {
         self.slope * x + 100 * self.height
     }
 
+    /// What y is: slope·x + height.
     fn equation(self) -> String {
-        format!("{}x{}", decimal(self.slope, 1), signed(self.height, 1))
+        terms(&[(self.slope, 1, "x"), (self.height, 1, "")])
     }
 }
 
@@ -88,10 +89,24 @@ fn decimal(n: i64, places: u32) -> String {
     }
 }
 
-/// The same as a further term of a sum.
-fn signed(n: i64, places: u32) -> String {
-    let sign = if n < 0 { '−' } else { '+' };
-    format!(" {sign} {}", decimal(n.abs(), places))
+/// A sum of terms, each a number with its decimals and the letters behind it: without those that are 0,
+/// and x for 1x.
+fn terms(all: &[(i64, u32, &str)]) -> String {
+    let mut sum = String::new();
+    for &(n, places, letters) in all.iter().filter(|(n, ..)| *n != 0) {
+        sum += match (n < 0, sum.is_empty()) {
+            (false, true) => "",
+            (true, true) => "−",
+            (false, false) => " + ",
+            (true, false) => " − ",
+        };
+        let number = decimal(n.abs(), places);
+        if number != "1" || letters.is_empty() {
+            sum += &number;
+        }
+        sum += letters;
+    }
+    if sum.is_empty() { "0".into() } else { sum }
 }
 
 /// The same as a factor, in brackets where it has a sign.
@@ -110,7 +125,7 @@ pub fn plane_lines(line: PlaneLine) -> Vec<Line> {
         "the line put into the circle:".into(),
         format!("  x² + ({})² = 25", line.equation()),
         "multiplied out and sorted:".into(),
-        format!("  {}x²{}x{} = 0", decimal(a, 2), signed(b, 2), signed(c, 2)),
+        format!("  {} = 0", terms(&[(a, 2, "x²"), (b, 2, "x"), (c, 2, "")])),
         "discriminant".into(),
         format!("  {}² − 4·{}·{}", factor(b, 2), decimal(a, 2), factor(c, 2)),
         format!("  = {}", decimal(discriminant, 4)),
@@ -246,6 +261,15 @@ mod tests {
         let past = flat.moved(0, 1);
         assert!(text(&plane_lines(past)).contains("no point in common"));
         assert_eq!(flat.moved(1000, 0).slope, MOST);
+    }
+
+    #[test]
+    fn a_sum_has_no_term_that_is_0_and_no_1_before_a_letter() {
+        let text = text(&plane_lines(PlaneLine::TUTORIAL.moved(-1, -2)));
+        assert!(text.contains("y = x\n"), "{text}");
+        assert!(text.contains("  2x² − 25 = 0"), "{text}");
+        assert_eq!(terms(&[(-10, 1, "x"), (5, 1, "")]), "−x + 0.5");
+        assert_eq!(terms(&[(0, 1, "x"), (0, 1, "")]), "0");
     }
 
     #[test]

@@ -27,8 +27,21 @@ const ALWAYS: &[KeyWord] = &[
     ("*", "landmark"),
 ];
 
+/// Keys that matter where a line is drawn in the picture's place.
+const PLANE: &[KeyWord] = &[
+    ("space", "menu"),
+    ("arrows", "move the line"),
+    ("r", "as it was"),
+    ("f", "next page"),
+    ("?", "help"),
+    ("q", "quit"),
+];
+
 /// All keys that matter, the most useful first; as many are shown as have room.
 pub(crate) fn keys(state: &State) -> Vec<KeyWord> {
+    if state.plane.is_some() {
+        return PLANE.to_vec();
+    }
     let mut keys = vec![("space", "menu"), ("arrows", "cursor")];
     let several = state.reading().is_some_and(|r| r.meetings.len() > 1);
     let also: &[KeyWord] = if several {

@@ -17,6 +17,7 @@ use crate::door::{Expected, FileError, TextPosition};
 use crate::explain::PlaneLine;
 use crate::explorer::arrival::Target;
 use crate::explorer::edit::field;
+use crate::explorer::key::Key;
 use crate::explorer::setting::{self, Setting, SettingRow};
 use crate::explorer::viewpoint::Viewpoint;
 use crate::scene::{Builtin, Scene, Size, Source, value};
@@ -41,7 +42,18 @@ pub struct Page {
     pub text: Vec<String>,
     /// What there is to do.
     pub attempt: Option<String>,
+    /// What that shows, one after the other; tests hold the page to it.
+    pub promises: Vec<Promise>,
     pub(crate) setup: Setup,
+}
+
+/// What somebody who tries what a page says does, and then sees.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Promise {
+    /// Keys, parted by spaces; or a command, from its colon on.
+    pub keys: String,
+    /// A text that is on a screen of 80 × 24 afterwards.
+    pub shows: String,
 }
 
 /// The state of the explorer that a page speaks of.
@@ -224,6 +236,9 @@ struct ChapterFile {
 struct PageFile {
     text: Spanned<String>,
     r#try: Option<Spanned<String>>,
+    /// Keys, and what they show.
+    #[serde(default)]
+    promise: Vec<Spanned<(String, String)>>,
     scene: Option<Spanned<String>>,
     /// Numbers of the scene, as after `:set`.
     #[serde(default)]
@@ -274,9 +289,11 @@ impl PageFile {
             ));
         }
         let attempt = self.r#try.as_ref().map(|t| prose(t, "try")).transpose()?;
+        let promises = self.promise.into_iter().map(promise);
         Ok(Page {
             text,
             attempt: attempt.map(|paragraphs| paragraphs.join(" ")),
+            promises: promises.collect::<Result<_, _>>()?,
             setup,
         })
     }
@@ -444,6 +461,24 @@ fn prose(text: &Spanned<String>, key: &str) -> Result<Vec<String>, PageFault> {
     match value::prose(text.get_ref()) {
         Ok(prose) => Ok(paragraphs(prose)),
         Err(refused) => Err(PageFault::at(text, format!("{key}: {refused}"))),
+    }
+}
+
+/// Keys that there are, and what they show.
+fn promise(written: Spanned<(String, String)>) -> Result<Promise, PageFault> {
+    let (keys, _) = written.get_ref();
+    let mut unknown = keys.split_whitespace().filter(|k| Key::parse(k).is_none());
+    match unknown.next() {
+        Some(word) if !keys.starts_with(':') => Err(PageFault::at(
+            &written,
+            format!(
+                "promise: found “{word}”, expected keys such as “right shift-up enter”, or a command such as “:method exact”"
+            ),
+        )),
+        _ => {
+            let (keys, shows) = written.into_inner();
+            Ok(Promise { keys, shows })
+        }
     }
 }
 

@@ -31,7 +31,7 @@ use crate::render::Style;
 use crate::scene::Scene;
 use crate::text::wrap;
 
-pub use chapter::{Chapter, Page, builtin, find, load};
+pub use chapter::{Chapter, Page, Promise, builtin, find, load};
 
 /// A page of some chapters.
 #[derive(Debug, Clone)]
