@@ -123,18 +123,15 @@ mod routines {
 
     #[test]
     fn reading_a_routine_takes_bounded_memory() {
-        let doubling: String = (1..60)
-            .map(|i| {
-                format!(
-                    "float g{i}(float x) {{ return g{0}(x) + g{0}(x); }}\n",
-                    i - 1
-                )
-            })
-            .collect();
-        let doubling = format!("float g0(float x) {{ return x * x; }}\n{doubling}");
-        let functions: String = (0..1200)
-            .map(|i| format!("vec3 h{i}(vec3 v) {{ return v * {i}.5; }}\n"))
-            .collect();
+        let mut doubling = "float g0(float x) { return x * x; }\n".to_owned();
+        for i in 1..60 {
+            let sum = format!("g{0}(x) + g{0}(x)", i - 1);
+            doubling += format!("float g{i}(float x) {{ return {sum}; }}\n").as_str();
+        }
+        let mut functions = String::new();
+        for i in 0..1200 {
+            functions += format!("vec3 h{i}(vec3 v) {{ return v * {i}.5; }}\n").as_str();
+        }
         let texts = [
             with("", &full_of("x=x*x+ra;")),
             with("", &full_of("if(x<1.)x+=ra;")),
