@@ -43,7 +43,7 @@ impl Ramps {
         let color = match self.depth {
             ColorDepth::None | ColorDepth::Ansi16 | ColorDepth::True => Rgb(r, g, b),
             // A ramp takes some time to find: colours that differ little share one.
-            ColorDepth::Ansi256 => Rgb(r & 0xf0 | r >> 4, g & 0xf0 | g >> 4, b & 0xf0 | b >> 4),
+            ColorDepth::Ansi256 => Rgb(r & 0xf8 | r >> 5, g & 0xf8 | g >> 5, b & 0xf8 | b >> 5),
         };
         *self.places.entry(color).or_insert_with(|| {
             self.shades.push(shades(color, self.depth));
@@ -72,29 +72,70 @@ fn dimmed(Rgb(r, g, b): Rgb, factor: f32) -> Rgb {
     Rgb(dim(r), dim(g), dim(b))
 }
 
-/// The colours of the terminal that have this hue, spread over the shades by their lightness.
+/// The colours of the terminal that pass for shades of this one, spread over the shades by their lightness.
 ///
-/// The terminal has few dark colours and many light ones, so the ramp begins at the darkest of them
-/// and ends a little above `color` itself, as a light would have it: more shades, each a clean one.
+/// The terminal has few dark colours and many light ones, so the ramp ends a little above `color` itself, as a
+/// light would have it: more shades, each a clean one.
 fn nearest_shades(color: Rgb, depth: ColorDepth) -> Vec<Rgb> {
     let base = perceived(color);
-    let alike: Vec<_> = XTERM
+    let ramp = even_ramp(base);
+    let lightness = |place: usize| ramp[place].1.lightness;
+    let (least, most) = (lightness(0), lightness(ramp.len() - 1));
+    let last = f32::from(depth.shades() - 1);
+    let wanted = |i: u8| least + (most - least) * f32::from(i) / last;
+    let off = |shade: &(Rgb, Perceived), i| (shade.1.lightness - wanted(i)).abs();
+    (0..depth.shades())
+        .filter_map(|i| ramp.iter().min_by(|a, b| off(a, i).total_cmp(&off(b, i))))
+        .map(|(there_is, _)| *there_is)
+        .collect()
+}
+
+/// The steps in lightness that a ramp is sought for, each of them even.
+const STEPS: [f32; 4] = [0.08, 0.10, 0.12, 0.14];
+
+/// From dark to light the colours of the terminal that go best through the shades of `base`: no step far from the others,
+/// each colour near to what a shade of its lightness would be, its way to the next near to the shades' way; and as far
+/// as that goes. It is the cheapest path through the colours by their lightness, found from its end back.
+fn even_ramp(base: Perceived) -> Vec<(Rgb, Perceived)> {
+    let mut alike: Vec<(Rgb, Perceived)> = XTERM
         .iter()
         .filter(|(_, seen)| seen.is_shade_of(base))
-        .collect();
-    let lightness = alike.iter().map(|(_, seen)| seen.lightness);
-    let (least, most) = lightness.fold((1.0_f32, 0.0_f32), |(l, m), x| (l.min(x), m.max(x)));
-    let last = f32::from(depth.shades() - 1);
-    let mut shades: Vec<_> = (0..depth.shades())
-        .map(|i| base.at(least + (most - least) * f32::from(i) / last))
-        .filter_map(|wanted| {
-            let nearest = wanted.nearest_of(alike.iter().copied());
-            nearest.or_else(|| base.nearest_of(XTERM.iter()))
-        })
         .copied()
         .collect();
-    shades.sort_by(|(_, a), (_, b)| a.lightness.total_cmp(&b.lightness));
-    shades.into_iter().map(|(there_is, _)| there_is).collect()
+    alike.sort_by(|(_, a), (_, b)| a.lightness.total_cmp(&b.lightness));
+    let paths = STEPS
+        .into_iter()
+        .map(|step| cheapest_path(&alike, base, step));
+    let best = paths.min_by(|(a, _), (b, _)| a.total_cmp(b));
+    let ramp: Vec<_> = best.map_or(Vec::new(), |(_, path)| {
+        path.iter().map(|&i| alike[i]).collect()
+    });
+    if ramp.is_empty() {
+        // A colour too dark to have shades is shown as the one that is most like it.
+        return base.nearest_of(XTERM.iter()).into_iter().copied().collect();
+    }
+    ramp
+}
+
+/// The price of the cheapest path with steps of about this size, and the places on it.
+fn cheapest_path(alike: &[(Rgb, Perceived)], base: Perceived, step: f32) -> (f32, Vec<usize>) {
+    // For each colour the price of the cheapest path that ends there, and where it comes from.
+    let mut ends: Vec<(f32, Option<usize>)> = Vec::with_capacity(alike.len());
+    for (_, to) in alike {
+        let own = to.price(base);
+        let ways = ends.iter().enumerate().filter_map(|(j, (price, _))| {
+            let between = alike[j].1.price_to(*to, base, step)?;
+            Some((price + between + own, Some(j)))
+        });
+        let start = std::iter::once((own, None));
+        let best = ways.chain(start).min_by(|(a, _), (b, _)| a.total_cmp(b));
+        ends.extend(best);
+    }
+    let last = (0..ends.len()).min_by(|&i, &j| ends[i].0.total_cmp(&ends[j].0));
+    let price = last.map_or(f32::INFINITY, |last| ends[last].0);
+    let mut path: Vec<usize> = std::iter::successors(last, |&i| ends[i].1).collect();
+    path.reverse();
+    (price, path)
 }
 
 /// The dull and the bright one of the sixteen that are nearest in hue. They tell spheres apart, and
@@ -116,12 +157,16 @@ fn two_shades(color: Rgb) -> [Rgb; 2] {
 
 /// Chroma in Oklab below which a colour is a grey to the eye.
 const GREY: f32 = 0.03;
-/// The cosine of 29°, between neighbours among six named hues: what is farther off is another hue.
-const ONE_HUE: f32 = 0.87;
-/// The part of its chroma that a shade must keep not to look grey beside the others.
-const STILL_COLORED: f32 = 0.8;
 /// How much lighter than a colour its lightest shade may be.
 const LIT: f32 = 0.19;
+/// What is darker than this looks black.
+const BLACK: f32 = 0.25;
+/// How far from the shade of its lightness a colour may be, in a and b.
+const ASTRAY: f32 = 0.09;
+/// Such a distance is seen at a glance: the unit of prices.
+const SEEN: f32 = 0.03;
+/// What a path earns for each unit of lightness that it climbs: as much as it pays for the worst of its colours.
+const EARNED: f32 = 60.0;
 
 /// A colour in Oklab (Ottosson, 2020), where distance is about what the eye makes of it.
 #[derive(Debug, Clone, Copy)]
@@ -146,18 +191,37 @@ impl Perceived {
         }
     }
 
+    /// How far in a and b this is from the shade of `base` that is as light.
+    fn astray(self, base: Self) -> [f32; 2] {
+        let shade = base.at(self.lightness);
+        [self.a - shade.a, self.b - shade.b]
+    }
+
     /// Whether this passes for a shade of `base`. A coloured sphere is never shown in grey, nor a grey
     /// one in colour: it would look like another.
     fn is_shade_of(self, base: Self) -> bool {
-        if self.lightness > base.lightness + LIT {
-            return false;
+        let [a, b] = self.astray(base);
+        (BLACK..=base.lightness + LIT).contains(&self.lightness)
+            && (self.chroma() < GREY) == (base.chroma() < GREY)
+            && a.hypot(b) < ASTRAY
+    }
+
+    /// What it costs a ramp of `base` to have this colour.
+    fn price(self, base: Self) -> f32 {
+        let [a, b] = self.astray(base);
+        0.7 * (a * a + b * b) / (SEEN * SEEN)
+    }
+
+    /// What it costs to go on to a lighter one, less what that earns; none for a step that is no such step.
+    fn price_to(self, lighter: Self, base: Self, step: f32) -> Option<f32> {
+        let climbed = lighter.lightness - self.lightness;
+        if !(0.5 * step..1.7 * step).contains(&climbed) {
+            return None;
         }
-        if base.chroma() < GREY {
-            return self.chroma() < GREY;
-        }
-        let same_way = self.a * base.a + self.b * base.b;
-        same_way > ONE_HUE * self.chroma() * base.chroma()
-            && self.chroma() > STILL_COLORED * base.at(self.lightness).chroma()
+        let ([a, b], [to_a, to_b]) = (self.astray(base), lighter.astray(base));
+        let turned = ((to_a - a).powi(2) + (to_b - b).powi(2)) / (SEEN * SEEN);
+        let uneven = (climbed / step - 1.0) / 0.4;
+        Some(0.5 * turned + uneven * uneven - EARNED * climbed)
     }
 
     /// The one of these colours that is most like this.
@@ -247,23 +311,62 @@ mod tests {
         assert_eq!(shades, [yellow, blue, green]);
     }
 
-    #[test]
-    fn shades_get_no_darker_and_keep_their_hue() {
+    /// The colours of spheres that name none.
+    const PALETTE: [Rgb; 7] = [
+        Rgb(0xe6, 0x9f, 0),
+        Rgb(0x56, 0xb4, 0xe9),
+        Rgb(0, 0x9e, 0x73),
+        Rgb(0xf0, 0xe4, 0x42),
+        Rgb(0, 0x72, 0xb2),
+        Rgb(0xd5, 0x5e, 0),
+        Rgb(0xcc, 0x79, 0xa7),
+    ];
+
+    /// The shades of a colour, each once.
+    fn apart(color: Rgb) -> Vec<Perceived> {
         let mut ramps = Ramps::default();
         ramps.set_depth(ColorDepth::Ansi256);
-        for color in [
-            Rgb(0xe6, 0x9f, 0),
-            Rgb(0x56, 0xb4, 0xe9),
-            Rgb(0, 0x9e, 0x73),
-        ] {
-            let shades = ramps.of(color);
-            let lightness = |c: &Rgb| perceived(*c).lightness;
-            assert!(shades.is_sorted_by_key(lightness), "{shades:?}");
-            assert!(shades.iter().all(|c| perceived(*c).chroma() > GREY));
-            let mut apart = shades.to_vec();
-            apart.dedup();
-            assert!(apart.len() >= 4, "{shades:?}");
+        let mut shades = ramps.of(color).to_vec();
+        shades.dedup();
+        shades.into_iter().map(perceived).collect()
+    }
+
+    #[test]
+    fn shades_keep_their_hue_and_rise_evenly() {
+        let greys = [Rgb(0x99, 0x99, 0x99), Rgb(255, 255, 255)];
+        for color in PALETTE.into_iter().chain(greys) {
+            let (base, shades) = (perceived(color), apart(color));
+            let steps: Vec<f32> = shades
+                .windows(2)
+                .map(|two| two[1].lightness - two[0].lightness)
+                .collect();
+            let (least, most) = steps.iter().fold((1.0_f32, 0.0_f32), |(l, m), &step| {
+                (l.min(step), m.max(step))
+            });
+            assert!(
+                shades.len() >= 3 && most < 1.5 * least,
+                "{color:?}: {steps:?}"
+            );
+            let climbed: f32 = steps.iter().sum();
+            assert!(climbed > 0.25, "{color:?}: {climbed}");
+            for shade in &shades {
+                let [a, b] = shade.astray(base);
+                assert!(a.hypot(b) < ASTRAY, "{color:?}: {shade:?}");
+                assert_eq!(shade.chroma() < GREY, base.chroma() < GREY, "{color:?}");
+            }
         }
+        for color in &PALETTE[..3] {
+            assert!(apart(*color).len() >= 4, "{color:?}");
+        }
+        // No khaki between the yellows, which is paler than the one before it and the one after.
+        let yellows = [0x5f5f00, 0x878700, 0xafaf00, 0xd7d700, 0xffff5f];
+        let yellows =
+            yellows.map(|c: u32| perceived(Rgb((c >> 16) as u8, (c >> 8) as u8, c as u8)));
+        let lightness = |shade: &Perceived| shade.lightness;
+        assert_eq!(
+            apart(PALETTE[3]).iter().map(lightness).collect::<Vec<_>>(),
+            yellows.each_ref().map(lightness)
+        );
     }
 
     #[test]
