@@ -1052,7 +1052,7 @@ fn a_picture_that_is_cut_shows_its_middle() {
     let screen = person.screen();
     // The disc is 20 of the 40 pixels high, in 11 of the 13 rows.
     assert!(screen.contains("▄▄▄▄▀▄▄▄▄"), "{screen}");
-    assert!(screen.contains("▀▀▀ ▀▀▀▀▀ ▀▀▀"), "{screen}");
+    assert!(screen.contains("▀▀▀▀▀▀ ▀▀▀▀▀▀"), "{screen}");
     person.presses("K K K").shows("↓");
     assert!(!person.screen().contains('↑'), "the cursor leads");
 }
