@@ -609,6 +609,30 @@ fn who_saves_and_quits_has_quit_once_it_is_saved() {
 }
 
 #[test]
+fn what_an_author_says_of_a_pixel_has_the_numbers_of_the_scene_as_it_is() {
+    let mut student = Person::opens("tutorial", 120, 40);
+    student.presses("N").shows("A = 1, B = −40 and C = 300");
+    student.presses("N").shows("just touches");
+    student.presses("g N");
+    student.shows("“a miss”, before the scene was changed; now: The discriminant is Δ = 0.");
+    assert!(!student.screen().contains("has no real root"));
+    let file = student.file("mine.toml");
+    student.commands(&format!("save-as {}", file.display()));
+    let saved = fs::read_to_string(file).expect("a file");
+    assert!(
+        saved.contains("name = \"mine\"") && saved.contains("{Δ}"),
+        "{saved}"
+    );
+    assert!(
+        !saved.contains("317") && !saved.contains("8 across"),
+        "{saved}"
+    );
+    // Whoever predicts is told no number.
+    student.commands("open tutorial").presses("P N");
+    assert!(!student.screen().contains("300"), "{}", student.screen());
+}
+
+#[test]
 fn a_name_that_would_not_open_what_is_saved_is_refused() {
     let mut person = Person::opens("trio", 160, 24);
     person.presses("x").commands("save-as far");

@@ -3,11 +3,14 @@
 use glam::Vec3;
 use ratatui::layout::Position;
 
+use crate::explain::{self, Lens, Reading};
 use crate::explorer::action::Action;
 use crate::explorer::arrival::{Target, scaled};
 use crate::explorer::draw::layout;
 use crate::explorer::state::State;
-use crate::scene::Aim;
+use crate::explorer::walk;
+use crate::method::Method;
+use crate::scene::{Aim, Probe};
 
 /// How many pixels a long step is.
 const FAR: i64 = 8;
@@ -105,19 +108,40 @@ fn go_to_probe(state: &mut State, forward: bool) {
     match pixel.filter(|&(x, y)| x < size.width && y < size.height) {
         Some((x, y)) => {
             put_cursor(state, x, y);
-            // What the author says holds for the scene as it was opened.
-            let text = if state.is_another_scene() {
-                String::new()
-            } else {
-                format!(": {}", probe.text)
-            };
-            state.say(format!("{}/{count}  {}{text}", at + 1, probe.title));
+            let words = words_of_probe(state, &probe);
+            state.say(format!("{}/{count}  {words}", at + 1));
         }
         None => state.warn(format!(
             "{}/{count}  {}: out of the picture. {{home}} takes the camera home.",
             at + 1,
             probe.title
         )),
+    }
+}
+
+/// What a probe says of the pixel under the cursor. Once the scene is changed, only sentences that have
+/// their numbers from it still hold; while the person predicts, its numbers are kept back.
+fn words_of_probe(state: &State, probe: &Probe) -> String {
+    let title = &probe.title;
+    if walk::is_picture_veiled(state) {
+        return title.clone();
+    }
+    let is_as_opened = !state.is_another_scene();
+    let lasting = explain::always_true(&probe.text);
+    let text = if is_as_opened { &probe.text } else { &lasting };
+    let (pixel, at) = (state.at.cursor, &state.at);
+    let method = match at.lens {
+        Lens::Mathematics => Method::Exact,
+        Lens::Machine => at.method,
+    };
+    let ray = state.picture.rays.ray(pixel.0, pixel.1);
+    let reading = Reading::take(state.scene(), pixel, ray, method, at.sphere, None);
+    let told = explain::told(text, &reading);
+    match (is_as_opened, told.is_empty()) {
+        (true, true) => title.clone(),
+        (true, false) => format!("{title}: {told}"),
+        (false, true) => format!("“{title}”, before the scene was changed"),
+        (false, false) => format!("“{title}”, before the scene was changed; now: {told}"),
     }
 }
 

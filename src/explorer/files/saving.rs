@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use crate::explain::{always_true, has_numbers};
 use crate::explorer::action::Action;
 use crate::explorer::dialog::{Confirmation, Dialog, Purpose};
 use crate::explorer::files::disk::{self, Over, Unsaved};
@@ -125,8 +126,13 @@ fn as_saved(state: &State, path: &Path) -> Scene {
         scene.name = own.replace(char::is_control, "");
     }
     if is_builtin && state.is_another_scene() {
-        let has_numbers = |text: &str| text.contains(|c: char| c.is_ascii_digit());
         scene.about = scene.about.filter(|about| !has_numbers(about));
+        for probe in &mut scene.probes {
+            let lasting = always_true(&probe.text);
+            if !lasting.is_empty() {
+                probe.text = lasting;
+            }
+        }
         scene.probes.retain(|probe| !has_numbers(&probe.text));
     }
     scene
