@@ -109,7 +109,7 @@ fn a_walk_of_the_whole_tour_shows_every_page_whole() {
                 let screen = student.screen();
                 let lines: Vec<&str> = screen.lines().collect();
                 // Beside each other on a large screen, under each other on a small one.
-                for text in page.text.iter().chain(&page.attempt) {
+                for text in page.text.iter().chain(&page.says_to_try(false)) {
                     for word in text.split_whitespace() {
                         assert!(screen.contains(word), "no “{word}” on\n{screen}");
                     }
@@ -453,7 +453,7 @@ fn what_a_page_says_to_try_shows_what_it_promises() {
     for (n, chapter) in (1..).zip(chapters.iter()) {
         for (p, page) in (1..).zip(&chapter.pages) {
             let place = format!("{n}/{p}, {}", chapter.title);
-            let attempt = page.attempt.as_deref().unwrap_or_default();
+            let attempt = &page.says_to_try(false).unwrap_or_default();
             assert!(!page.promises.is_empty(), "{place} promises nothing");
             let mut student = Student::on_page(n, p, SMALL);
             for promise in &page.promises {

@@ -22,11 +22,11 @@ pub(super) struct Appearance {
     #[arg(long, env = "RAYSCOPE_THEME", hide_env_values = true, value_parser = choice(&Palette::ALL, Palette::name))]
     theme: Option<Palette>,
 
-    /// Write nothing but ASCII: for fonts and lines that garble the rest
+    /// Write only ASCII, for fonts and lines that garble other characters
     #[arg(long)]
     ascii: bool,
 
-    /// Converse in lines of text, without a screen: for screen readers, pipes and scripts
+    /// Read commands and answer in lines of text, without a screen: for screen readers, pipes and scripts
     #[arg(long)]
     pub(super) plain: bool,
 }

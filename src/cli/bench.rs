@@ -69,7 +69,7 @@ pub(super) struct BenchArgs {
     #[arg(long)]
     samples: bool,
 
-    /// Name what differs from an earlier report in JSON by more than the noise of both
+    /// List what differs from an earlier report in JSON by more than the noise of both
     #[arg(long, value_name = "OLD.json", conflicts_with = "frames")]
     against: Option<PathBuf>,
 

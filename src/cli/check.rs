@@ -10,7 +10,7 @@ use crate::lab::check::{self, RoutineCheck};
 use crate::method::Method;
 use crate::report::Format;
 
-/// Hold a routine against the truth: slips, and what it is weak at
+/// Compare a routine with the truth: known slips, and rays that it is weak at
 #[derive(Debug, Args)]
 pub(super) struct CheckArgs {
     /// A routine in GLSL or WGSL
@@ -62,7 +62,7 @@ fn text(name: &str, id: crate::method::RoutineId, found: &RoutineCheck) -> Strin
     if let Some(line) = found.line {
         let _ = writeln!(
             out,
-            "  line {line} parts from the mathematics: {}",
+            "  line {line} departs from the mathematics: {}",
             program.line(line).0
         );
     }

@@ -21,7 +21,7 @@ use crate::method::{Class, Method};
 use crate::report::Format;
 use crate::text::read;
 
-/// Hold somebody else's answers against the truth, beside the methods here
+/// Compare answers in a file with the truth, and with the methods here
 #[derive(Debug, Args)]
 pub(super) struct GradeArgs {
     /// CSV with the columns ox,oy,oz,dx,dy,dz,cx,cy,cz,r and class,near,far; `-` for standard input

@@ -53,7 +53,7 @@ struct Arguments {
     #[command(flatten)]
     explore: explore::Explore,
 
-    /// Fuse products into sums in routines, as compilers do unasked where the processor has fused multiply-adds
+    /// In routines, fuse a product and a sum into one operation, as compilers do by default on some processors
     #[cfg(feature = "routine")]
     #[arg(long, global = true)]
     contract: bool,

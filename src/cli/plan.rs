@@ -182,7 +182,7 @@ impl FrameSeries {
             "bytes sent",
             sent as u64,
             all.saturating_sub(sent) as u64,
-            "of what all cells would take on an empty screen of 256 colours: a cell that the terminal shows already is not sent",
+            "of the bytes of all cells on an empty screen in 256 colours: a cell that the terminal already shows is not sent",
         )
     }
 }

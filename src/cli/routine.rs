@@ -6,7 +6,7 @@ use super::{Failure, Outcome, choice, write_out};
 use crate::method::Method;
 use crate::method::source::{SourceLanguage, about, source};
 
-/// Lists the built-in methods, or prints one as a routine
+/// List the built-in methods, or print one as a routine
 #[derive(Debug, Args)]
 pub(super) struct RoutineArgs {
     /// The method to print

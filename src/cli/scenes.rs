@@ -5,7 +5,7 @@ use clap::Args;
 use super::{Outcome, choice, write_out};
 use crate::scene::Builtin;
 
-/// Lists the built-in scenes, or prints one as a scene file
+/// List the built-in scenes, or print one as a scene file
 #[derive(Debug, Args)]
 pub(super) struct Scenes {
     /// The scene to print

@@ -11,7 +11,7 @@ use crate::lab::stress::{self, Stability, StressPlan};
 use crate::lab::{Dial, plot};
 use crate::report::Format;
 
-/// Turn one dial after the other from tame to broken: where does each method break down?
+/// Turn one dial after the other until methods fail: where does each break down?
 #[derive(Debug, Args)]
 pub(super) struct StressArgs {
     #[command(flatten)]

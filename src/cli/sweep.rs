@@ -15,7 +15,7 @@ pub(super) struct SweepArgs {
     #[arg(long)]
     pub quick: bool,
 
-    /// What the rays are drawn from; the same seed gives the same rays everywhere
+    /// The seed that the rays come from; the same seed gives the same rays everywhere
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = seed, allow_negative_numbers = true)]
     pub seed: u64,
 

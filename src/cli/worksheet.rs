@@ -11,7 +11,7 @@ use crate::render::{CELL_ASPECT, Style, fit};
 use crate::scene::{PixelShape, Rays, Scene, Size};
 use crate::terminal::Capability;
 
-/// Print exercises about pixels of a scene for pencil and paper, and their answers on a page apart
+/// Print exercises for pencil and paper about pixels of a scene, with answers on a separate page
 #[derive(Debug, Args)]
 pub(super) struct WorksheetArgs {
     /// A scene file, or the name of a built-in scene
@@ -21,11 +21,11 @@ pub(super) struct WorksheetArgs {
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = seed, allow_negative_numbers = true)]
     seed: u64,
 
-    /// How many exercises; fewer if the scene has not that much to show
+    /// How many exercises; fewer if the scene has too few different cases
     #[arg(long, value_name = "N", default_value_t = 8, allow_negative_numbers = true, value_parser = whole(1_u16, 100))]
     count: u16,
 
-    /// Width and height in pixels of the picture that they are of [default: the scene's own, or
+    /// Width and height in pixels of the picture that the exercises are about [default: the scene's own, or
     /// 40x40]
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<Size>,

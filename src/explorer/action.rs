@@ -172,13 +172,13 @@ macro_rules! actions {
 
 actions! {
     /// cursor one pixel left
-    CursorLeft "left" ["left", "h"] Cursor 'h' "move cursor";
+    CursorLeft "left" ["left", "h"] Cursor 'h' "cursor";
     /// cursor one pixel right
-    CursorRight "right" ["right", "l"] Cursor 'l' "move cursor";
+    CursorRight "right" ["right", "l"] Cursor 'l' "cursor";
     /// cursor one pixel up
-    CursorUp "up" ["up", "k"] Cursor 'k' "move cursor";
+    CursorUp "up" ["up", "k"] Cursor 'k' "cursor";
     /// cursor one pixel down
-    CursorDown "down" ["down", "j"] Cursor 'j' "move cursor";
+    CursorDown "down" ["down", "j"] Cursor 'j' "cursor";
     /// cursor eight pixels left
     CursorFarLeft "far-left" ["shift-left"] Cursor 'H' "by eight";
     /// cursor eight pixels right
@@ -189,14 +189,14 @@ actions! {
     CursorFarDown "far-down" ["shift-down"] Cursor 'J' "by eight";
     /// cursor to the centre of the picture
     CursorCenter "center" [] Cursor 'c' "centre";
-    /// cursor to the nearest tangent pixel, or the nearest to one
+    /// cursor to the nearest pixel whose ray touches
     SnapTangent "tangent" ["t"] Cursor 't' "tangent";
-    /// cursor to the next place worth looking at
-    NextProbe "next-place" ["N"] Cursor 'n' "places";
-    /// cursor to the previous place worth looking at
-    PreviousProbe "previous-place" [] Cursor 'N' "places";
+    /// cursor to the scene's next place to look at
+    NextProbe "next-place" ["N"] Cursor 'n' "next place";
+    /// cursor to the scene's previous place
+    PreviousProbe "previous-place" [] Cursor 'N' "next place";
 
-    /// orbit to the left about the point looked at
+    /// orbit to the left about what you look at
     OrbitLeft "orbit-left" ["a"] Camera 'a' "orbit";
     /// orbit to the right
     OrbitRight "orbit-right" ["d"] Camera 'd' "orbit";
@@ -222,7 +222,7 @@ actions! {
     ZoomOut "zoom-out" ["-"] Camera '-' "zoom";
     /// look at the selected sphere
     LookAtSphere "look-at" [] Camera 'o' "look at sphere";
-    /// camera as the scene has it
+    /// put the camera back where the scene has it
     Home "home" ["home", "0"] Camera '0' "home";
 
     /// next view: shade, class, …
@@ -233,13 +233,13 @@ actions! {
     NextStyle "next-style" [] View 'b' "style";
     /// previous style
     PreviousStyle "previous-style" [] View 'B' "style";
-    /// numbers in full precision, or rounded to be read
+    /// show numbers in full, or rounded
     Precision "digits" [] View 'p' "digits";
-    /// cells taken to be taller
+    /// take the cells of the screen to be taller
     AspectTaller "taller" [] View '}' "shape of cells";
-    /// cells taken to be wider
+    /// take the cells of the screen to be wider
     AspectWider "wider" [] View '{' "shape of cells";
-    /// next theme: dark, light, high-contrast, monochrome
+    /// next theme: dark, light, high-contrast, …
     NextTheme "next-theme" ["@"] View '@' "theme";
     /// next number of colours: 256, true, never, 16
     NextColor "next-color" ["#"] View '#' "colours";
@@ -247,30 +247,30 @@ actions! {
     ScrollDown "scroll-down" ["pagedown"] View 'f' "scroll";
     /// scroll the panel up
     ScrollUp "scroll-up" ["pageup"] View 'F' "scroll";
-    /// use the mouse: a click moves the cursor, the wheel zooms; or leave it to select text
+    /// mouse on: click to point, wheel to zoom; or off
     Mouse "mouse" ["$"] View 'm' "mouse";
     /// draw the whole screen again
     Redraw "redraw" ["ctrl-l"] View 'r' "redraw";
 
-    /// open the steps; go to the next one, or reveal its answer
+    /// open the steps; write the next one
     NextStep "next" ["enter", "."] Steps 'n' "next step";
     /// previous step
-    PreviousStep "back" ["backspace", ","] Steps 'b' "back";
+    PreviousStep "back" [",", "backspace"] Steps 'b' "back";
     /// first step
-    FirstStep "first" ["<"] Steps '<' "ends";
+    FirstStep "first" ["<"] Steps '<' "first, last";
     /// last step
-    LastStep "last" [">"] Steps '>' "ends";
-    /// predict, then reveal: hide picture and results until a key
+    LastStep "last" [">"] Steps '>' "first, last";
+    /// predict: type each result before it is shown
     Predict "predict" ["P"] Steps 'P' "predict";
     /// board: one step, large, for the back row
     Board "board" ["O"] Steps 'O' "board";
-    /// show the next sphere on the line of the ray
+    /// show the next sphere on this line
     NextOnLine "next-on-line" ["n"] Steps 'o' "sphere on line";
     /// panel: A, B, C and Δ
     PanelQuadratic "quadratic" ["1"] Steps '1' "numbers";
-    /// panel: the derivation, a step at a time
+    /// panel: the sheet, a line at a time
     PanelSteps "steps" ["2"] Steps '2' "steps";
-    /// panel: the plane through ray and centre
+    /// panel: ray and sphere from the side
     PanelSlice "slice" ["3"] Steps '3' "side view";
     /// panel: the curve f(t) = At² + Bt + C
     PanelCurve "curve" ["4"] Steps '4' "curve";
@@ -278,24 +278,24 @@ actions! {
     ScrubForward "point-forward" [")"] Steps ')' "point on ray";
     /// move the point p back along the ray
     ScrubBack "point-back" ["("] Steps '(' "point on ray";
-    /// p to the next landmark of the line: p0, a root, the point closest to the centre
+    /// p to the next landmark: p0, a root, …
     NextLandmark "next-landmark" ["*"] Steps '*' "landmark";
-    /// p to the landmark before
+    /// p to the previous landmark
     PreviousLandmark "previous-landmark" ["_"] Steps '_' "landmark";
-    /// p back to where something is seen
+    /// p back to the point that is seen
     ScrubHome "point-home" ["/"] Steps '/' "p to what is seen";
 
     /// open the tour; go to its next page
     TourForward "tour-forward" ["f"] Tour 'f' "tour";
     /// previous page
     TourBack "tour-back" ["F"] Tour 'F' "tour";
-    /// this page again: everything as the page has it
+    /// set everything as the page has it
     TourAgain "tour-again" ["r"] Tour 'r' "page again";
     /// next chapter
     TourNextChapter "tour-next-chapter" ["ctrl-n"] Tour 'c' "chapter";
-    /// first page of this chapter, or of the one before
+    /// first page of this chapter, or the previous one
     TourPreviousChapter "tour-previous-chapter" ["ctrl-p"] Tour 'C' "chapter";
-    /// put the tour away and go back to your own scene; return to the tour
+    /// leave the tour for your own scene; return to it
     Tour "tour" ["ctrl-t"] Tour 't' "leave tour";
 
     /// select the next sphere
@@ -324,22 +324,22 @@ actions! {
     StepCoarser "coarser" ["]"] Spheres ']' "step length";
     /// finer steps
     StepFiner "finer" ["["] Spheres '[' "step length";
-    /// make the pixel under the cursor tangent: the radius for which Δ = 0
+    /// change the radius so that this ray touches
     MakeTangent "make-tangent" ["T"] Spheres 'T' "make tangent";
-    /// add a sphere under the cursor, in front of what it points at
+    /// add a sphere in front of the cursor, selected
     Add "add" ["i"] Spheres 'a' "add sphere";
     /// duplicate the selected sphere
     Duplicate "duplicate" [] Spheres 'd' "duplicate";
     /// delete the selected sphere
     Delete "delete" ["delete"] Spheres 'r' "remove";
-    /// type exact values: the numbers of the sphere and the camera
+    /// type the numbers of sphere and camera
     Edit "values" ["="] Spheres 'v' "type values";
 
     /// undo
     Undo "undo" ["u"] Program 'u' "undo, redo";
     /// redo
     Redo "redo" ["U", "ctrl-r"] Program 'U' "undo, redo";
-    /// reset the scene to what was opened (can be undone)
+    /// bring back the opened scene (can be undone)
     Reset "reset" [] Program 'R' "reset";
     /// open a scene
     Open "open" ["ctrl-o"] Program 'o' "open";
@@ -347,20 +347,20 @@ actions! {
     Save "save" ["ctrl-s"] Program 's' "save";
     /// save the scene under another name
     SaveAs "save-as" ["ctrl-a"] Program 'S' "save";
-    /// show and copy the command that reopens this very view
+    /// show and copy the command for this very view
     Link "link" ["ctrl-y"] Program 'L' "link";
-    /// this menu: all actions, by arrows or letters
+    /// all actions in a menu, by arrows or letters
     Menu "menu" ["space", "f1"] Program 'm' "menu";
     /// type a command by name; what fits is listed
     CommandLine "command-line" [":"] Program ':' "command";
     /// all keys and commands
     Help "help" ["?"] Program '?' "all keys";
-    /// stop, for the shell to take over; its `fg` comes back
+    /// stop the program; the shell's `fg` continues it
     Suspend "suspend" ["ctrl-z"] Program 't' "stop";
     /// quit; asks if there are unsaved changes
     Quit "quit" ["q"] Program 'q' "quit";
 
-    /// the other lens: the mathematics of a pixel, or the machine's arithmetic
+    /// lens: mathematics, or the machine's arithmetic
     OtherLens "other-lens" ["L"] Laboratory 'l' "other lens";
     /// next method
     NextMethod "next-method" ["m"] Laboratory 'm' "method";
@@ -368,23 +368,23 @@ actions! {
     PreviousMethod "previous-method" ["M"] Laboratory 'M' "method";
     /// panel: the bits of the step's number
     PanelBits "bits" ["5"] Laboratory '5' "bits";
-    /// panel: the chosen method beside another
+    /// panel: this method beside another
     PanelCompare "compare" ["6"] Laboratory '6' "compare";
     /// compare with the next method
     NextComparison "next-comparison" [] Laboratory 'c' "compare with";
-    /// panel: error against run time for this picture
+    /// panel: error and run time for this picture
     PanelError "error" ["7"] Laboratory '7' "error and time";
-    /// time all methods on this picture, on a thread of its own; again: stop
+    /// time all methods on this picture; again: stop
     Measure "measure" ["%"] Laboratory '%' "measure";
-    /// panel: what this frame needed, what was left out, and why
+    /// panel: what this frame needed and left out, why
     PanelPlan "plan" ["8"] Laboratory '8' "plan of frame";
-    /// panel: a dial on this scene; again: the next dial
+    /// panel: a dial for this scene; again: the next
     NextDial "next-dial" ["9"] Laboratory '9' "dial";
-    /// turn the dial on, from tame to broken
+    /// turn the dial up, towards where methods break
     TurnOn "turn-on" ["\\"] Laboratory '\\' "turn the dial";
     /// turn the dial back
     TurnBack "turn-back" ["|"] Laboratory '|' "turn the dial";
-    /// copy this pixel as a row for `rayscope grade`; again: as a test case in C, in Rust
+    /// copy this pixel: as a row; again: as C, as Rust
     CopyCase "copy-case" ["&"] Laboratory '&' "copy pixel";
 }
 
@@ -392,6 +392,25 @@ impl Action {
     /// The action of that name.
     pub fn by_name(name: &str) -> Option<Self> {
         by_name(Self::ALL.iter().copied(), Self::name, name)
+    }
+
+    /// A sentence with each `{action}` in it put as its key, or by its name where there are no keys.
+    pub fn spell(text: &str, by_name: bool) -> String {
+        let mut pieces = text.split('{');
+        let mut spelt = pieces.next().unwrap_or_default().to_owned();
+        for piece in pieces {
+            let action = piece.split_once('}');
+            let action = action.and_then(|(name, rest)| Some((Self::by_name(name)?, rest)));
+            if let Some((action, rest)) = action {
+                let key = action.keys().first().filter(|_| !by_name);
+                spelt += key.copied().unwrap_or_else(|| action.name());
+                spelt += rest;
+            } else {
+                spelt.push('{');
+                spelt += piece;
+            }
+        }
+        spelt
     }
 
     /// What is typed for it in the menu: `space l t`.
@@ -471,7 +490,15 @@ mod tests {
     }
 
     #[test]
-    fn no_key_and_no_name_stands_twice() {
+    fn what_an_action_does_fits_beside_its_name_on_the_usual_screen() {
+        for action in Action::ALL {
+            let help = action.help();
+            assert!(help.chars().count() <= 47, "{}: {help}", action.name());
+        }
+    }
+
+    #[test]
+    fn no_key_and_no_name_is_there_twice() {
         let mut keys = HashSet::new();
         let mut names = HashSet::new();
         let mut prefixes = HashSet::new();

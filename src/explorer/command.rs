@@ -62,7 +62,7 @@ const WITH_ARGUMENT: &[(&str, &str, &str)] = &[
     (
         "dial",
         "NAME K",
-        "turn the scene along this dial by 2^K; 0 takes it back",
+        "turn this dial on the scene to 2^K; 0 takes it back",
     ),
     (
         "copy",

@@ -92,7 +92,10 @@ fn way_back(
             let path = stamp.path();
             let scene = Scene::load(path).map_err(|e| e.to_string())?;
             let name = path.to_str().ok_or_else(|| {
-                format!("{}: this file's name is no text to pass on", path.display())
+                format!(
+                    "{}: this file's name is not UTF-8, so no command can carry it",
+                    path.display()
+                )
             })?;
             Ok((vec![as_file(name)], scene))
         }
@@ -209,7 +212,7 @@ impl Link {
             }
             let row = SettingRow::by_name(&flag).filter(|row| row.flag.is_some());
             let row = row.ok_or_else(|| {
-                format!("rayscope: --{flag} is no flag of a view, which a pasted command opens")
+                format!("rayscope: found --{flag}, expected a scene and flags of a view")
             })?;
             settings.push(setting::parse(row, &value)?);
         }

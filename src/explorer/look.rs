@@ -40,9 +40,9 @@ pub(crate) fn act(action: Action, state: &mut State) -> bool {
 fn toggle_mouse(state: &mut State) {
     state.mouse = !state.mouse;
     state.say(if state.mouse {
-        "The mouse: a click moves the cursor, the wheel zooms. {mouse} gives it back."
+        "Mouse on: a click moves the cursor, the wheel zooms. {mouse} turns it off."
     } else {
-        "The mouse selects text again."
+        "Mouse off: it selects text again."
     });
 }
 

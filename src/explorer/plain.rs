@@ -50,7 +50,7 @@ impl Explorer {
     /// What is said first: where we are, and how to go on.
     pub fn greeting(&mut self) -> Reply {
         self.look();
-        let mut text = match self.tour.text() {
+        let mut text = match self.tour.text(true) {
             Some(page) => page.join("\n") + "\n",
             None => self.scene().name.clone() + "\n",
         };
@@ -60,7 +60,7 @@ impl Explorer {
         if let Some(message) = message {
             text += &(message.text + "\n");
         }
-        text += "help lists the commands, quit ends.\n";
+        text += "An empty line takes the next step, help lists the commands, quit ends.\n";
         self.said(&text, refused)
     }
 
@@ -92,7 +92,7 @@ impl Explorer {
         self.state.names_actions = true;
         let line = match line.trim() {
             "" if !self.is_asking() => Action::NextStep.name(),
-            line => line,
+            line => line.strip_prefix(':').unwrap_or(line),
         };
         if line.is_empty() || line.starts_with('#') {
             return Reply::default();
@@ -134,7 +134,7 @@ impl Explorer {
         if after.page != before.page {
             text += &self
                 .tour
-                .text()
+                .text(true)
                 .map_or(String::new(), |t| t.join("\n") + "\n");
         }
         if after.panel != before.panel {
@@ -291,7 +291,7 @@ impl Explorer {
             "" => Ok(self.panel_in_text(self.state.at.panel)),
             "view" => Ok(self.picture_in_text()),
             "numbers" => Ok(numbers(&self.state)),
-            "tour" => match self.tour.text() {
+            "tour" => match self.tour.text(true) {
                 Some(page) => Ok(page.join("\n") + "\n"),
                 None => Err("show tour: no page is open; tour opens it".into()),
             },
@@ -490,7 +490,8 @@ fn help(name: &str) -> Result<String, String> {
         };
     }
     let mut text = String::from(
-        "A line is an action, which a number after it repeats, or a command with what it needs.\n",
+        "A line is the name of an action or a command. An action is repeated by a number after \
+         it: right 5. An empty line takes the next step.\n",
     );
     for group in Group::ALL {
         let actions = Action::ALL.iter().filter(|a| a.group() == group);
@@ -500,7 +501,8 @@ fn help(name: &str) -> Result<String, String> {
     text += "Commands\n";
     text.extend(with_argument().map(of_command));
     text += "  show: the panel in text\n";
-    text.extend(Panel::ALL.map(|panel| format!("  show {}: that panel\n", panel.name())));
+    let panels = Panel::ALL.map(Panel::name).join(", ");
+    text += &["  show NAME: that panel, one of ", &panels, "\n"].concat();
     text.extend(
         OTHERS
             .iter()

@@ -75,7 +75,7 @@ pub(crate) fn sentence(state: &State) -> String {
     let most = slips.iter().max_by_key(|(_, n)| **n);
     let most = most.map_or(String::new(), |(name, n)| format!(", {name} {n} times"));
     format!(
-        "So far: {} of {} right at once{most}.",
+        "So far: {} of {} right at the first try{most}.",
         sum(&right),
         sum(&asked)
     )

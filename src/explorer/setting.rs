@@ -86,7 +86,7 @@ pub struct SettingRow {
 pub const SETTINGS: &[SettingRow] = &[
     SettingRow {
         name: "method",
-        command: Some(("NAME", "evaluate the quadratic by this method")),
+        command: Some(("NAME", "evaluate the quadratic with this method")),
         flag: Some(("METHOD", "How the quadratic is evaluated")),
         spoken: Some("method"),
         choices: || names(&Method::ALL, Method::name),
@@ -97,7 +97,7 @@ pub const SETTINGS: &[SettingRow] = &[
         name: "lens",
         command: Some((
             "NAME",
-            "look at the mathematics of a pixel, or at the machine's arithmetic",
+            "show the mathematics of a pixel, or the machine's arithmetic",
         )),
         flag: Some((
             "LENS",
@@ -146,7 +146,7 @@ pub const SETTINGS: &[SettingRow] = &[
     },
     SettingRow {
         name: "aspect",
-        command: Some(("RATIO", "take cells to be this many times as high as wide")),
+        command: Some(("RATIO", "take a cell to be this many times as high as wide")),
         flag: Some(("ASPECT", "Height of a character cell over its width")),
         spoken: None,
         choices: Vec::new,
@@ -170,7 +170,7 @@ pub const SETTINGS: &[SettingRow] = &[
         command: None,
         flag: Some((
             "WxH",
-            "The picture in which the cursor counts, where the scene fixes none: on a screen of another size the cursor is put in the same place",
+            "The size of the picture that the cursor is counted in, if the scene does not fix one; on another screen the cursor goes to the same place",
         )),
         spoken: None,
         choices: Vec::new,
@@ -234,7 +234,7 @@ pub const SETTINGS: &[SettingRow] = &[
         command: None,
         flag: Some((
             "N",
-            "The sphere that the panel shows, of those on the line under the cursor",
+            "The sphere in the panel, one of those on the line under the cursor",
         )),
         spoken: None,
         choices: Vec::new,

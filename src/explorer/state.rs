@@ -227,35 +227,16 @@ impl State {
         self.work.document.apply(change)
     }
 
-    /// A sentence with each `{action}` in it put as its key, or by its name where there are no keys.
-    fn spelt(&self, text: &str) -> String {
-        let mut pieces = text.split('{');
-        let mut spelt = pieces.next().unwrap_or_default().to_owned();
-        for piece in pieces {
-            let action = piece.split_once('}');
-            let action = action.and_then(|(name, rest)| Some((Action::by_name(name)?, rest)));
-            if let Some((action, rest)) = action {
-                let key = action.keys().first().filter(|_| !self.names_actions);
-                spelt += key.copied().unwrap_or_else(|| action.name());
-                spelt += rest;
-            } else {
-                spelt.push('{');
-                spelt += piece;
-            }
-        }
-        spelt
-    }
-
     pub(crate) fn say(&mut self, text: impl Into<String>) {
         self.message = Some(Message {
-            text: self.spelt(&text.into()),
+            text: Action::spell(&text.into(), self.names_actions),
             warning: false,
         });
     }
 
     pub(crate) fn warn(&mut self, text: impl Into<String>) {
         self.message = Some(Message {
-            text: self.spelt(&text.into()),
+            text: Action::spell(&text.into(), self.names_actions),
             warning: true,
         });
     }

@@ -126,9 +126,9 @@ pub(crate) fn toggle_prediction(state: &mut State) {
     if on {
         state.at.panel = Panel::Steps;
         let so_far = progress::sentence(state);
-        state.say(format!(
-            "Type A, B, C, Δ and the roots before you see them; picture and panels wait. {so_far}"
-        ));
+        let told =
+            "Type A, B, C, Δ and the roots before you see them; picture and panels are hidden.";
+        state.say(format!("{told} {so_far}").trim_end());
     } else {
         state.say("Results are shown again.");
     }
@@ -200,19 +200,21 @@ pub(crate) fn take_answer(state: &mut State, answer: &str) -> bool {
             let Prediction {
                 right: all, asked, ..
             } = state.prediction;
-            state.say(format!("Yes, {right}. {all} of {asked} right at once."));
+            state.say(format!(
+                "Yes, {right}. {all} of {asked} right at the first try."
+            ));
             show_answer(state);
         }
         Judgement::Slip(slip) => {
             state.prediction.missed = true;
             let (name, sentence) = (slip.name(), slip.words());
             state.say(format!(
-                "No: {sentence} ({name}). Try again, or enter shows it."
+                "No: {sentence} ({name}). Try again, or {{next}} shows it."
             ));
         }
         Judgement::Wrong => {
             state.prediction.missed = true;
-            state.say("No. Try again, or enter shows it.");
+            state.say("No. Try again, or {next} shows it.");
         }
     }
     true
@@ -229,7 +231,7 @@ pub(crate) fn holds_back(state: &mut State, action: Action) -> bool {
     state.prediction.warned = Some(action);
     let name = action.name();
     state.say(format!(
-        "{name} would change what you are asked about. Again does it."
+        "{name} would change the scene of this question. Do it again to go ahead."
     ));
     true
 }
@@ -269,7 +271,7 @@ pub(crate) fn go_to_landmark(state: &mut State, forward: bool) {
         let subject = r.subject.as_ref()?;
         Some((r.ray, subject.sphere))
     }) else {
-        return state.say("There is no sphere to go along a ray to.");
+        return state.say("The scene has no spheres: there is nothing to go to.");
     };
     let places = landmarks(&ray, &sphere);
     let Some(at) = neighbour(&places, moving_t(state), forward) else {
@@ -294,7 +296,7 @@ fn show_moving_point(state: &mut State) {
 pub(crate) fn scrub(state: &mut State, steps: f64) {
     let subject = state.subject();
     let Some(subject) = subject else {
-        return state.say("There is no sphere to go along a ray to.");
+        return state.say("The scene has no spheres: there is nothing to go to.");
     };
     let c = subject.coefficients;
     let closest = (-c.b / (2.0 * c.a)).abs();

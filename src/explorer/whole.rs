@@ -389,7 +389,7 @@ impl Explorer {
         let mode = self.modes.last_mut();
         if !mode.is_some_and(|mode| mode.layer_mut().paste(text)) {
             self.state
-                .say("A paste is not taken for keys. Type : first to paste a command.");
+                .say("Pasted text does nothing here. Type : first to paste a command.");
         }
     }
 

@@ -56,15 +56,15 @@ impl Slip {
             Self::SignOfO => {
                 "o points the wrong way: it is p0 − c, from the centre to the start of the ray"
             }
-            Self::RForR2 => "r is taken away where it is r²: C = |o|² − r²",
+            Self::RForR2 => "r is subtracted instead of r²: C = |o|² − r²",
             Self::TangentIsAMiss => {
-                "a discriminant of 0 is a tangent, which touches: only below 0 it misses"
+                "a discriminant of 0 is a tangent: the ray touches, and only below 0 it misses"
             }
-            Self::MinusBOverA => "the roots are divided by A; it is 2A",
+            Self::MinusBOverA => "the roots are divided by A instead of 2A",
             Self::NegativeT => {
-                "a t below 0 lies behind the eye and is not seen; from inside it is the far root that is"
+                "a t below 0 lies behind the eye and is not seen; from inside, the far root is seen"
             }
-            Self::FarForNear => "the far root is given where the near one is seen",
+            Self::FarForNear => "the far root is given, but the near one is seen",
         }
     }
 

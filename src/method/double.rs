@@ -38,7 +38,7 @@ impl Reduced for Double {
                 formula: "o×d",
                 template: "{o} × {d}",
                 code: "let cross = cross(k.o, input.d);",
-                why: "At right angles to both; as long as d times the distance at which the line passes the centre.",
+                why: "At right angles to o and d. Its length is |d| times the distance of the line from the centre.",
             },
             cross,
         );
@@ -68,7 +68,7 @@ impl Reduced for Double {
                 formula: "A·r² − ‖o×d‖²",
                 template: "{A·r²} − {‖o×d‖²}",
                 code: "let reduced = arr - kk;",
-                why: "The discriminant, Δ/4, by Lagrange's identity: nothing in it cancels but what the question cancels.",
+                why: "The discriminant, Δ/4, by Lagrange's identity: only what has to cancel cancels.",
             },
             reduced,
         );

@@ -37,7 +37,7 @@ impl Reduced for Haines {
                 formula: "b/A",
                 template: "{b} / {A}",
                 code: "let foot = k.b / k.a;",
-                why: "Less its sign, the t at which the line comes closest to the centre.",
+                why: "Its negative is the t at which the line comes closest to the centre.",
             },
             foot,
         );

@@ -242,7 +242,7 @@ pub(super) fn root_steps<'t, F: Float>(
     let over_q = (
         "C/q",
         "{C} / {q}",
-        "The product of the roots is C/A, so this is the other.",
+        "The product of the roots is C/A, so this is the other root.",
     );
     let ([near, far], code) = match roots.form {
         Form::NearOverA => ([over_a, over_q], "(q / a, c / q, Form::NearOverA)"),

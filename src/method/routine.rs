@@ -101,7 +101,7 @@ impl RoutineId {
                     line: 1,
                     column: 1,
                     problem: format!(
-                        "{MOST_NAMES} routines are known already; start the program anew"
+                        "{MOST_NAMES} routines are known already; restart the program"
                     ),
                 });
             }

@@ -4,7 +4,7 @@ use clap::Args;
 
 use super::{Outcome, choice, write_out};
 
-/// Writes a program that times your own routine and prints rows for `grade`
+/// Write a program that times your own routine and prints rows for `grade`
 #[derive(Debug, Args)]
 pub(super) struct HarnessArgs {
     /// The language of the program

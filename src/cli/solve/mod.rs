@@ -41,7 +41,7 @@ pub(super) struct Solve {
     #[command(flatten)]
     lens: LensFlag,
 
-    /// The way to evaluate the quadratic
+    /// How the quadratic is evaluated
     #[arg(long, value_name = "METHOD", env = "RAYSCOPE_METHOD", hide_env_values = true, value_parser = method_name(), default_value = Method::default().name())]
     method: MethodName,
     /// How the derivation of one intersection is written

@@ -174,7 +174,7 @@ fn not_hidden(plan: &Plan) -> PlanLine {
     } else if plan.view().shows_only_what_is_seen() {
         "a wrong root of the method may be the least: none may be left out"
     } else {
-        "the view tells of every sphere on the line"
+        "the view shows every sphere on the line"
     };
     let hidden = plan.counts().hidden;
     PlanLine::without("  not hidden", hidden, plan.spheres(), because)
@@ -398,7 +398,7 @@ fn surface(plan: &Plan) -> [PlanLine; 3] {
             line("shades", shaded, seen),
         ],
         (View::Normal, _) => [
-            line("normals", anew, "once for each pixel that is drawn anew"),
+            line("normals", anew, "once for each pixel that is redrawn"),
             line("light", 0, unseen),
             line("shades", 0, unseen),
         ],

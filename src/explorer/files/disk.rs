@@ -137,7 +137,7 @@ fn write(path: &Path, bytes: &[u8], over: Over<'_>) -> Result<(), Unsaved> {
         };
         if !there.is_file() {
             return Err(Unsaved::Failed(
-                "it is no file that could be replaced".into(),
+                "it is not a file that can be replaced".into(),
             ));
         }
         if matches!(over, Over::Nothing) {
@@ -161,7 +161,7 @@ fn followed(path: &Path) -> io::Result<PathBuf> {
             Err(_) => return Ok(path),
         }
     }
-    Err(io::Error::other("its links lead round in a circle"))
+    Err(io::Error::other("its links form a circle"))
 }
 
 fn folder_of(path: &Path) -> &Path {
@@ -377,7 +377,7 @@ mod tests {
         assert!(reason(&none).ends_with("not saved: its folder does not exist"));
         let blocked = folder.path().join("dir");
         fs::create_dir(&blocked).unwrap();
-        assert!(reason(&blocked).ends_with("it is no file that could be replaced"));
+        assert!(reason(&blocked).ends_with("it is not a file that can be replaced"));
         assert_eq!(names(folder.path()), ["dir"]);
     }
 

@@ -135,7 +135,7 @@ fn write_down(state: &mut State) -> bool {
     if let Some(reason) = before.err().or_else(|| is_nowhere.then(|| NOWHERE.into())) {
         let is_news = !std::mem::replace(&mut rescue.has_warned, true);
         if is_news {
-            state.warn(format!("Unsaved work is not kept, save it: {reason}."));
+            state.warn(format!("Unsaved work cannot be kept, save it: {reason}."));
         }
         return is_news;
     }
@@ -191,8 +191,7 @@ pub(crate) fn recover(state: &mut State, path: &Path) {
             if let Some(rescue) = &mut state.rescue {
                 rescue.taken = rescue.offered.take();
             }
-            state
-                .say("This is what was not saved. {undo} goes back to the scene as it was opened.");
+            state.say("Your unsaved work is back. {undo} goes back to the scene as it was opened.");
         }
         Err(e) => state.warn(e.to_string()),
     }

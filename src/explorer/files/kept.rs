@@ -51,7 +51,7 @@ impl KeptFolder {
             .tempfile_in(&self.folder)?;
         writeln!(
             file,
-            "# Unsaved work that rayscope kept for when its terminal is gone."
+            "# Unsaved work, kept by rayscope in case its terminal goes away."
         )?;
         writeln!(file, "{SCENE}{scene}")?;
         if !self.person.is_empty() {

@@ -153,7 +153,7 @@ pub(crate) fn write(state: &mut State, path: &Path, over: Over<'_>) {
         }
         Err(Unsaved::Occupied) => {
             let why = match over {
-                Over::Known(_) => "was changed by somebody else since it was read",
+                Over::Known(_) => "has changed on disk since it was read",
                 Over::Nothing | Over::Anything => "exists already",
             };
             let path = path.to_owned();

@@ -209,7 +209,7 @@ impl Overlay for Help {
         let end = pen.text(x, area.y, room, &text, CellStyle::new());
         let count = self.lines(state.options).len();
         let aside = match count {
-            0 => "no line has that; esc clears".to_owned(),
+            0 => "nothing found   esc clears".to_owned(),
             _ => format!("{count} lines   enter does the chosen one   esc clears"),
         };
         let room = area.right().saturating_sub(end + 3);
@@ -222,7 +222,7 @@ impl Overlay for Help {
 
 /// The lines of the page: a heading, or keys and what they do.
 fn page(options: Options) -> Vec<HelpLine> {
-    let mut out = of_terminal(options);
+    let mut out = Vec::new();
     for group in Group::ALL {
         out.push(HelpLine::heading(group.title()));
         for &action in Action::ALL.iter().filter(|a| a.group() == group) {
@@ -246,6 +246,7 @@ fn page(options: Options) -> Vec<HelpLine> {
             does: Does::Type(name),
         });
     }
+    out.extend(of_terminal(options));
     out
 }
 
@@ -264,6 +265,7 @@ fn of_terminal(options: Options) -> Vec<HelpLine> {
         does,
     };
     vec![
+        HelpLine::heading(""),
         HelpLine::heading("This terminal"),
         line(
             "# colours",
@@ -278,6 +280,5 @@ fn of_terminal(options: Options) -> Vec<HelpLine> {
             Does::Act(Action::NextTheme),
         ),
         line("characters", glyphs.name(), reasons.glyphs, Does::Nothing),
-        HelpLine::heading(""),
     ]
 }

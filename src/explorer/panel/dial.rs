@@ -105,7 +105,7 @@ impl Component for DialPanel {
     }
 
     fn foot(&self, _: &State) -> String {
-        "\\ turn on  | back  9 next dial".into()
+        "\\ turn up  | back  9 next dial".into()
     }
 
     fn act(&mut self, action: Action, state: &mut State) -> bool {
@@ -345,7 +345,7 @@ impl DialPanel {
         if !marks_wrong(state) {
             say(
                 Role::Plain,
-                "\\ turns it on, from tame to broken; | turns it back.",
+                "\\ turns it up, towards where methods break; | turns it back.",
             );
             return lines;
         }

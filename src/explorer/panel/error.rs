@@ -143,9 +143,9 @@ impl Run {
     fn in_words(&self) -> String {
         match &self.wait {
             Some(wait) => format!(
-                "Waiting to measure, since two at once would disturb each other: {wait}. % waits no longer."
+                "Waiting to measure, since two at once would disturb each other: {wait}. % stops waiting."
             ),
-            None => "Measuring … the keys do what they always do.".into(),
+            None => "Measuring … all keys work as usual.".into(),
         }
     }
 }
@@ -182,8 +182,8 @@ const RELEASE: Duration = Duration::from_secs(2);
 
 /// What the panel says before anything was measured.
 const NOTHING_YET: &str = "Press % to time all methods on the questions that this picture asks: the ray \
-    of each pixel with each sphere. Each answer is held against the truth as well. It takes about a \
-    second; on one host one measures after the other.";
+    of each pixel with each sphere. Each answer is compared with the exact one, too. It takes about \
+    a second; on a shared host measurements run one after another.";
 
 /// A refusal as a sentence.
 fn in_words(refusal: &NoChart) -> String {
@@ -199,8 +199,7 @@ impl Chart {
     fn remarks(&self) -> Vec<(Role, String)> {
         let mut remarks = Vec::new();
         if self.is_stale {
-            let stale =
-                "STALE: the picture was another one when this was measured. % measures again.";
+            let stale = "STALE: the picture has changed since this was measured. % measures again.";
             remarks.push((Role::Warning, stale.into()));
         }
         let complaints = self.report.complaints();

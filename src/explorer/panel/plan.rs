@@ -16,7 +16,7 @@ impl Component for PlanPanel {
     fn text(&self, state: &State, room: Rect) -> (String, Vec<Line>) {
         let plan = state.picture.frame.plan();
         let frame = if state.picture.percent_done().is_some() {
-            "This frame: a picture of which this much is done so far."
+            "This frame: a picture that is not finished; done so far:"
         } else if state.picture.rests {
             "This frame: the picture rests."
         } else if plan.counts().kept > 0 {
@@ -30,14 +30,14 @@ impl Component for PlanPanel {
             "cursor's ray",
             state.scene().bodies.len() as u64,
             0,
-            "asked about every sphere for the panel; while the cursor moves nothing else is asked",
+            "the panel asks about every sphere; while the cursor moves, nothing else is asked",
         ));
         if let Some([sent, all]) = state.sent {
             lines.push(PlanLine::new(
                 "bytes sent",
                 sent,
                 all.saturating_sub(sent),
-                "by the frame before this one: cells that the terminal shows already are not sent; left out is what the largest frame so far took more",
+                "in the frame before: cells that the terminal already shows are not sent; left out is what the largest frame so far took beyond that",
             ));
         }
         (title, explain::plan_panel(frame, &lines, room.width.into()))

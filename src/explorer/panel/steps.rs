@@ -46,7 +46,7 @@ impl Component for StepsPanel {
         } else if state.is_hidden() {
             "enter: the answer".into()
         } else if *on && *asked > 0 {
-            format!("{right} of {asked} right at once")
+            format!("{right} of {asked} right at the first try")
         } else {
             "enter next  , back".into()
         }

@@ -15,6 +15,7 @@ use toml::Spanned;
 
 use crate::door::{Expected, FileError, TextPosition};
 use crate::explain::PlaneLine;
+use crate::explorer::action::Action;
 use crate::explorer::arrival::Target;
 use crate::explorer::edit::field;
 use crate::explorer::key::Key;
@@ -40,7 +41,7 @@ pub struct Chapter {
 pub struct Page {
     /// What there is to know, in paragraphs.
     pub text: Vec<String>,
-    /// What there is to do.
+    /// What there is to do; an action is named in braces, as in `{tangent}`.
     pub attempt: Option<String>,
     /// What that shows, one after the other; tests hold the page to it.
     pub promises: Vec<Promise>,
@@ -391,6 +392,14 @@ impl PageFile {
                 }
             }
         }
+    }
+}
+
+impl Page {
+    /// What there is to do, if there is something: with keys, or with the names of actions.
+    pub fn says_to_try(&self, by_name: bool) -> Option<String> {
+        let attempt = self.attempt.as_ref()?;
+        Some(format!("Try: {}", Action::spell(attempt, by_name)))
     }
 }
 

@@ -366,11 +366,11 @@ impl Tour {
         open.map(|tour| (tour.at.chapter, tour.at.page))
     }
 
-    /// The page as paragraphs, its title first.
-    pub(crate) fn text(&self) -> Option<Vec<String>> {
+    /// The page as paragraphs, its title first; actions by name, or by key.
+    pub(crate) fn text(&self, by_name: bool) -> Option<Vec<String>> {
         let at = &self.open.as_ref()?.at;
         let page = at.page()?;
-        let attempt = page.attempt.as_ref().map(|text| format!("Try: {text}"));
+        let attempt = page.says_to_try(by_name);
         let text = page.text.iter().cloned();
         Some(
             [at.title()?]
@@ -383,7 +383,7 @@ impl Tour {
 }
 
 fn say_not_open(state: &mut State) {
-    state.say("The tour is not open. f opens it.");
+    state.say("The tour is not open. {tour-forward} opens it.");
 }
 
 /// Puts the person's own work aside, and begins to work on `scene`.
@@ -418,7 +418,7 @@ struct PageColumns {
 impl PageColumns {
     fn of(page: &Page, width: u16) -> Self {
         let room = width.saturating_sub(2);
-        let attempt = page.attempt.as_ref().map(|text| format!("Try: {text}"));
+        let attempt = page.says_to_try(false);
         let plain = |text: &String, columns: usize| {
             let lines = wrap(text, columns).into_iter();
             lines

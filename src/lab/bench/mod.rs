@@ -118,7 +118,7 @@ impl Sample {
         let plural = if spheres == 1 { "" } else { "s" };
         let share = match problems.len() {
             n if n == all.count() => "all".to_owned(),
-            n => format!("{n} of {}, drawn by lot", all.count()),
+            n => format!("{n} of {}, drawn at random", all.count()),
         };
         Self {
             name: scene.name.clone(),

@@ -160,7 +160,7 @@ fn parts(method: Method) -> Vec<MethodPart> {
             Number(
                 "foot",
                 "b / a",
-                "less its sign, the t at which the line comes closest to the centre",
+                "its negative is the t at which the line comes closest to the centre",
             ),
             Vector(
                 "l",
@@ -188,7 +188,7 @@ fn parts(method: Method) -> Vec<MethodPart> {
             Vector(
                 "k",
                 "across(o, direction)",
-                "as long as d times the distance of the line",
+                "its length is that of d times the distance of the line",
             ),
             Number(
                 "reduced",
