@@ -130,63 +130,45 @@ impl Painter {
     }
 }
 
-/// What a cell looks like, or that it is the right half of the character before it. Two that look the same
-/// are the same: what does not show is left at its default.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum CellLook<'a> {
-    /// Characters.
-    Text {
-        symbol: &'a str,
-        fg: Color,
-        bg: Color,
-        modifier: Modifier,
-    },
-    /// The right half of the character before it.
-    Covered,
+/// The characters to write for a cell, and what they want of the pen. Two cells of which both are the same look the same:
+/// what does not show is left open.
+fn written(cell: &Cell, limits: Limits) -> (&str, Want) {
+    let symbol = symbol(cell, limits);
+    let color = |color: Color| {
+        if limits.colorless {
+            Color::Reset
+        } else {
+            color
+        }
+    };
+    let is_blank = symbol == " " && !cell.modifier.intersects(SEEN_ON_BLANKS);
+    let want = Want {
+        fg: (!is_blank).then_some(color(cell.fg)),
+        bg: Some(color(cell.bg)),
+        modifier: if is_blank {
+            Modifier::empty()
+        } else {
+            cell.modifier
+        },
+        touches: if is_blank {
+            SEEN_ON_BLANKS
+        } else {
+            Modifier::all()
+        },
+    };
+    (symbol, want)
 }
 
-impl<'a> CellLook<'a> {
-    fn of(cell: &'a Cell, limits: Limits) -> Self {
-        let symbol = symbol(cell, limits);
-        let (mut fg, mut bg, mut modifier) = (cell.fg, cell.bg, cell.modifier);
-        if limits.colorless {
-            (fg, bg) = (Color::Reset, Color::Reset);
+/// Whether two cells are the same, without a call for the text of a usual cell.
+fn is_same(one: &Cell, other: &Cell) -> bool {
+    one.fg == other.fg
+        && one.bg == other.bg
+        && one.modifier == other.modifier
+        && match (one.symbol().as_bytes(), other.symbol().as_bytes()) {
+            ([a], [b]) => a == b,
+            (&[a, b, c], &[d, e, f]) => [a, b, c] == [d, e, f],
+            (a, b) => a == b,
         }
-        if symbol == " " && !modifier.intersects(SEEN_ON_BLANKS) {
-            (fg, modifier) = (Color::Reset, Modifier::empty());
-        }
-        Self::Text {
-            symbol,
-            fg,
-            bg,
-            modifier,
-        }
-    }
-
-    /// The characters to write, and what they want of the pen; nothing where nothing is to write.
-    fn written(self) -> Option<(&'a str, Want)> {
-        let Self::Text {
-            symbol,
-            fg,
-            bg,
-            modifier,
-        } = self
-        else {
-            return None;
-        };
-        let blank = symbol == " " && !modifier.intersects(SEEN_ON_BLANKS);
-        let want = Want {
-            fg: (!blank).then_some(fg),
-            bg: Some(bg),
-            modifier,
-            touches: if blank {
-                SEEN_ON_BLANKS
-            } else {
-                Modifier::all()
-            },
-        };
-        Some((symbol, want))
-    }
 }
 
 /// The characters that are sent for a cell.
@@ -240,8 +222,15 @@ impl Want {
     }
 }
 
-/// About how many bytes another colour takes.
-const ONE_COLOR: u8 = 8;
+/// About how many bytes select a colour.
+const fn color_length(color: Color) -> u8 {
+    match color {
+        Color::Indexed(16..=99) => 8,
+        Color::Indexed(100..) => 9,
+        Color::Rgb(..) => 15,
+        _ => 3,
+    }
+}
 
 /// With which colours and modifiers the terminal writes now.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -259,7 +248,7 @@ impl TerminalInk {
     /// About how many bytes the way to that ink takes.
     fn distance(self, want: Want) -> u8 {
         let after = self.after(want);
-        let color = |one, other| if one == other { 0 } else { ONE_COLOR };
+        let color = |one, other| if one == other { 0 } else { color_length(other) };
         color(self.fg, after.fg)
             + color(self.bg, after.bg)
             + if self.modifier == after.modifier {
@@ -337,8 +326,9 @@ impl Scratch {
             .zip(next.content.chunks(columns));
         for (y, (before, after)) in (next.area.top()..).zip(rows) {
             let start = self.plain.len();
-            let is_wide = before != after
-                && find_in_row((before, after), (next.area.x, y), limits, &mut self.plain);
+            let differs = before.iter().zip(after).any(|(a, b)| !is_same(a, b));
+            let is_wide =
+                differs && find_in_row((before, after), (next.area.x, y), limits, &mut self.plain);
             if is_wide {
                 self.wide.extend(self.plain.drain(start..));
             }
@@ -390,23 +380,25 @@ fn find_in_row(
     // How many columns more the last character covers, as it was and as it is.
     let [mut covered_before, mut covered] = [0; 2];
     for (x, (before, after)) in (left..).zip(before.iter().zip(after)) {
-        if covered_before == 0 && covered == 0 && before == after {
+        if covered_before == 0 && covered == 0 && is_same(before, after) {
             covered = width(symbol(after, limits)) - 1;
             covered_before = covered;
             is_wide |= covered > 0;
             continue;
         }
         let look = |cell, covered: &mut u16| {
+            // The right half of the character before it.
             if *covered > 0 {
                 *covered -= 1;
-                return CellLook::Covered;
+                return None;
             }
-            *covered = width(symbol(cell, limits)) - 1;
-            CellLook::of(cell, limits)
+            let written = written(cell, limits);
+            *covered = width(written.0) - 1;
+            Some(written)
         };
         let (before, after) = (look(before, &mut covered_before), look(after, &mut covered));
         is_wide |= covered_before > 0 || covered > 0;
-        let Some((symbol, want)) = after.written().filter(|_| before != after) else {
+        let Some((symbol, want)) = after.filter(|_| before != after) else {
             continue;
         };
         let to = x + width(symbol);
@@ -511,18 +503,18 @@ impl Passes {
         self.turns.extend(0..self.inks.len() as u32);
         for done in 0..self.turns.len() {
             let mut best = (u8::MAX, done);
-            for (i, &pass) in self.turns.iter().enumerate().skip(done) {
+            for (i, &pass) in self.turns.iter().enumerate().skip(done).take(LOOKED_AT) {
                 let distance = ink.distance(self.inks[pass as usize].0);
                 best = best.min((distance, i));
-                if distance <= ONE_COLOR {
-                    break;
-                }
             }
             self.turns.swap(done, best.1);
             ink = ink.after(self.inks[self.turns[done] as usize].0);
         }
     }
 }
+
+/// Among how many inks the next is sought: in true colours there can be thousands.
+const LOOKED_AT: usize = 64;
 
 /// Hashes colours and modifiers: a product for each number.
 #[derive(Debug, Default)]
@@ -569,42 +561,47 @@ impl TerminalState {
     fn paint(&mut self, stretch: &CellRun, page: WantedCells, out: &mut Vec<u8>) {
         let area = page.buffer.area;
         self.go(Position::new(stretch.from, stretch.y), Some(page), out);
+        self.change(stretch.want, out);
         let row = usize::from(stretch.y - area.y) * usize::from(area.width);
         let mut x = stretch.from;
         while x < stretch.to.min(area.right()) {
             let cell = &page.buffer.content[row + usize::from(x - area.x)];
-            let Some((symbol, want)) = CellLook::of(cell, page.limits).written() else {
-                break;
-            };
-            self.change(want, out);
-            out.extend_from_slice(symbol.as_bytes());
+            let symbol = symbol(cell, page.limits);
+            push_symbol(symbol, out);
             x += width(symbol);
         }
         // At the end the cursor stays on the last column, or is past it: terminals differ.
         self.at = (x < area.right()).then_some(Position::new(x, stretch.y));
     }
 
-    /// Makes the ink what is wanted: by what differs, or from nothing.
+    /// Makes the ink what is wanted: by what differs, or from nothing, whichever is shorter.
     fn change(&mut self, want: Want, out: &mut Vec<u8>) {
         let after = self.ink.after(want);
         if self.ink == after {
             return;
         }
-        let mut best = Sequence::default();
-        best.select(self.ink, after);
-        // An empty first parameter is the reset.
-        let mut anew = Sequence::default();
-        if after != TerminalInk::default() {
-            anew.push(b";");
-            anew.select(TerminalInk::default(), after);
-        }
-        if anew.length < best.length {
-            best = anew;
-        }
-        self.ink = after;
         out.extend_from_slice(b"\x1b[");
-        out.extend_from_slice(best.bytes());
+        let start = out.len();
+        select(self.ink, after, out);
+        let length = out.len() - start;
+        // What was selected has to be undone, or is most of what is to be: only then the other way can be shorter.
+        if self.ink.modifier != after.modifier
+            || after.fg == Color::Reset
+            || after.bg == Color::Reset
+        {
+            // An empty first parameter is the reset.
+            if after != TerminalInk::default() {
+                out.push(b';');
+                select(TerminalInk::default(), after, out);
+            }
+            if out.len() - start < 2 * length {
+                out.drain(start..start + length);
+            } else {
+                out.truncate(start + length);
+            }
+        }
         out.push(b'm');
+        self.ink = after;
     }
 
     /// Moves to a cell; what is between may be written again, if it is on this page.
@@ -612,203 +609,275 @@ impl TerminalState {
         if self.at == Some(to) {
             return;
         }
-        let mut best = Sequence::default();
-        best.jump(to);
-        if let Some(at) = self.at {
-            best.keep_shorter(|sequence| sequence.step(at, to));
-            if let Some(page) = page {
-                best.keep_shorter(|sequence| sequence.write_again(self.ink, at, to, page));
+        let step = self.at.map(|at| Step::between(at, to));
+        let shortest = step.map_or(u16::MAX, Step::length).min(jump_length(to));
+        let written = self
+            .at
+            .zip(page)
+            .is_some_and(|(at, page)| write_again(self.ink, (at, to), page, shortest.into(), out));
+        if !written {
+            match step.filter(|step| step.length() == shortest) {
+                Some(step) => step.write(out),
+                None => jump(to, out),
             }
         }
-        out.extend_from_slice(best.bytes());
         self.at = Some(to);
     }
 }
 
-/// Some bytes for the terminal: the parameters of the longest selection fit.
+/// Appends the characters of a cell.
+fn push_symbol(symbol: &str, out: &mut Vec<u8>) {
+    match *symbol.as_bytes() {
+        // Of a length that is known where this is compiled.
+        [a] => out.push(a),
+        [a, b, c] => out.extend_from_slice(&[a, b, c]),
+        ref bytes => out.extend_from_slice(bytes),
+    }
+}
+
+fn push_number(n: u16, out: &mut Vec<u8>) {
+    let digit = |n: u16| b'0' + (n % 10) as u8;
+    match n {
+        0..10 => out.push(digit(n)),
+        10..100 => out.extend_from_slice(&[digit(n / 10), digit(n)]),
+        100..1000 => out.extend_from_slice(&[digit(n / 100), digit(n / 10), digit(n)]),
+        _ => {
+            push_number(n / 10, out);
+            out.push(digit(n));
+        }
+    }
+}
+
+/// How many digits a number has.
+const fn digits(n: u16) -> u16 {
+    match n {
+        0..10 => 1,
+        10..100 => 2,
+        100..1000 => 3,
+        1000..10_000 => 4,
+        _ => 5,
+    }
+}
+
+fn jump(to: Position, out: &mut Vec<u8>) {
+    out.extend_from_slice(b"\x1b[");
+    push_number(to.y + 1, out);
+    if to.x > 0 {
+        out.push(b';');
+        push_number(to.x + 1, out);
+    }
+    out.push(b'H');
+}
+
+const fn jump_length(to: Position) -> u16 {
+    let column = if to.x > 0 { 1 + digits(to.x + 1) } else { 0 };
+    3 + digits(to.y + 1) + column
+}
+
+/// To another row, then along it.
 #[derive(Debug, Clone, Copy)]
-struct Sequence {
-    bytes: [u8; 96],
-    length: usize,
+struct Step {
+    rows: Rows,
+    along: Along,
 }
 
-impl Default for Sequence {
-    fn default() -> Self {
-        Self {
-            bytes: [0; 96],
-            length: 0,
-        }
+/// The shortest way to another row.
+#[derive(Debug, Clone, Copy)]
+enum Rows {
+    /// So many line feeds, which leave the column.
+    Down(u16),
+    /// The row by its number, from 0.
+    To(u16),
+}
+
+/// The shortest way along a row.
+#[derive(Debug, Clone, Copy)]
+enum Along {
+    Forward(u16),
+    Back(u16),
+    Backspaces(u16),
+    /// The column by its number, from 0.
+    To(u16),
+}
+
+/// A column forward or back in one sequence.
+const fn move_length(n: u16) -> u16 {
+    match n {
+        0 => 0,
+        1 => 3,
+        n => 3 + digits(n),
     }
 }
 
-impl Sequence {
-    fn bytes(&self) -> &[u8] {
-        &self.bytes[..self.length]
-    }
-
-    fn push(&mut self, bytes: &[u8]) {
-        self.bytes[self.length..][..bytes.len()].copy_from_slice(bytes);
-        self.length += bytes.len();
-    }
-
-    fn push_number(&mut self, n: u16) {
-        let digits = n.checked_ilog10().unwrap_or(0) + 1;
-        for i in (0..digits).rev() {
-            self.push(&[b'0' + (n / 10_u16.pow(i) % 10) as u8]);
-        }
-    }
-
-    /// Takes another way to the same if there is one and it is shorter.
-    fn keep_shorter(&mut self, way: impl FnOnce(&mut Self) -> Option<()>) {
-        let mut other = Self::default();
-        if way(&mut other).is_some() && other.length < self.length {
-            *self = other;
-        }
-    }
-
-    fn jump(&mut self, to: Position) {
-        self.push(b"\x1b[");
-        self.push_number(to.y + 1);
-        if to.x > 0 {
-            self.push(b";");
-            self.push_number(to.x + 1);
-        }
-        self.push(b"H");
-    }
-
-    /// Down by line feeds, then along the row; none where neither is a step of that kind.
-    fn step(&mut self, at: Position, to: Position) -> Option<()> {
-        let down = to.y.checked_sub(at.y).filter(|&n| n < 8)?;
-        self.push(&b"\n\n\n\n\n\n\n\n"[..down.into()]);
-        let mut along = Self::default();
-        if to.x >= at.x {
-            along.steps(to.x - at.x, b'C');
+impl Step {
+    fn between(at: Position, to: Position) -> Self {
+        let rows = match to.y.checked_sub(at.y) {
+            Some(down @ 0..=3) => Rows::Down(down),
+            _ => Rows::To(to.y),
+        };
+        let along = match to.x.checked_sub(at.x) {
+            Some(forward) => Along::Forward(forward),
+            None if at.x - to.x <= 4 => Along::Backspaces(at.x - to.x),
+            None => Along::Back(at.x - to.x),
+        };
+        let along = if along.length() <= Along::To(to.x).length() {
+            along
         } else {
-            let back = at.x - to.x;
-            along.steps(back, b'D');
-            along.keep_shorter(|sequence| {
-                sequence.push(b"\r");
-                sequence.steps(to.x, b'C');
-                Some(())
-            });
-            along.keep_shorter(|sequence| {
-                let backspaces: &[u8] = b"\x08\x08\x08\x08";
-                sequence.push(backspaces.get(..back.into())?);
-                Some(())
-            });
-        }
-        self.push(along.bytes());
-        Some(())
+            Along::To(to.x)
+        };
+        Self { rows, along }
     }
 
-    fn steps(&mut self, n: u16, last: u8) {
-        if n > 0 {
-            self.push(b"\x1b[");
-            if n > 1 {
-                self.push_number(n);
-            }
-            self.push(&[last]);
-        }
+    const fn length(self) -> u16 {
+        let rows = match self.rows {
+            Rows::Down(n) => n,
+            Rows::To(y) => 3 + digits(y + 1),
+        };
+        rows + self.along.length()
     }
 
-    /// The cells from here to there once more, if the ink suits them.
-    fn write_again(
-        &mut self,
-        ink: TerminalInk,
-        at: Position,
-        to: Position,
-        page: WantedCells,
-    ) -> Option<()> {
-        let area = page.buffer.area;
-        let row = usize::from(at.y.checked_sub(area.y)?);
-        let is_near = at.y == to.y && at.x <= to.x && to.x - at.x <= MOST_AGAIN;
-        if !is_near || at.x < area.x || page.wide_rows.get(row).copied()? {
-            return None;
-        }
-        let start = row * usize::from(area.width);
-        let [from, to] = [at.x, to.x].map(|x| start + usize::from(x - area.x));
-        for cell in &page.buffer.content[from..to] {
-            let (symbol, want) = CellLook::of(cell, page.limits).written()?;
-            if !ink.suits(want) || symbol.len() > LONGEST_AGAIN {
-                return None;
+    fn write(self, out: &mut Vec<u8>) {
+        match self.rows {
+            Rows::Down(n) => out.extend_from_slice(&b"\n\n\n"[..n.into()]),
+            Rows::To(y) => {
+                out.extend_from_slice(b"\x1b[");
+                push_number(y + 1, out);
+                out.push(b'd');
             }
-            self.push(symbol.as_bytes());
         }
-        Some(())
+        let move_by = |n: u16, last: u8, out: &mut Vec<u8>| {
+            if n > 0 {
+                out.extend_from_slice(b"\x1b[");
+                if n > 1 {
+                    push_number(n, out);
+                }
+                out.push(last);
+            }
+        };
+        match self.along {
+            Along::Forward(n) => move_by(n, b'C', out),
+            Along::Back(n) => move_by(n, b'D', out),
+            Along::Backspaces(n) => out.extend_from_slice(&b"\x08\x08\x08\x08"[..n.into()]),
+            Along::To(0) => out.push(b'\r'),
+            Along::To(x) => move_by(x + 1, b'G', out),
+        }
     }
 }
 
-/// A jump takes no more bytes than this many cells.
-const MOST_AGAIN: u16 = 12;
-/// So many bytes of a cell are worth writing again.
-const LONGEST_AGAIN: usize = 8;
+impl Along {
+    const fn length(self) -> u16 {
+        match self {
+            Self::Forward(n) | Self::Back(n) => move_length(n),
+            Self::Backspaces(n) => n,
+            Self::To(0) => 1,
+            Self::To(x) => move_length(x + 1),
+        }
+    }
+}
 
-impl Sequence {
-    /// The parameters that select `after` where `before` is selected.
-    fn select(&mut self, before: TerminalInk, after: TerminalInk) {
+/// Writes the cells from here to there once more, if the ink suits them and that is shorter than `shortest`.
+fn write_again(
+    ink: TerminalInk,
+    (at, to): (Position, Position),
+    page: WantedCells,
+    shortest: usize,
+    out: &mut Vec<u8>,
+) -> bool {
+    let area = page.buffer.area;
+    let is_near = at.y == to.y && at.x <= to.x && usize::from(to.x - at.x) < shortest;
+    if !is_near || at.x < area.x || at.y < area.y {
+        return false;
+    }
+    let row = usize::from(at.y - area.y);
+    if page.wide_rows.get(row).copied() != Some(false) {
+        return false;
+    }
+    let first = row * usize::from(area.width);
+    let [from, to] = [at.x, to.x].map(|x| first + usize::from(x - area.x));
+    let start = out.len();
+    for cell in &page.buffer.content[from..to] {
+        let (symbol, want) = written(cell, page.limits);
+        if !ink.suits(want) || out.len() - start + symbol.len() >= shortest {
+            out.truncate(start);
+            return false;
+        }
+        push_symbol(symbol, out);
+    }
+    true
+}
+
+/// Each modifier, what selects it, and what takes it back. Bold and dim go together.
+const OFF: [(Modifier, u16); 5] = [
+    (Modifier::BOLD.union(Modifier::DIM), 22),
+    (Modifier::ITALIC, 23),
+    (Modifier::UNDERLINED, 24),
+    (Modifier::REVERSED, 27),
+    (Modifier::CROSSED_OUT, 29),
+];
+const ON: [(Modifier, u16); 6] = [
+    (Modifier::BOLD, 1),
+    (Modifier::DIM, 2),
+    (Modifier::ITALIC, 3),
+    (Modifier::UNDERLINED, 4),
+    (Modifier::REVERSED, 7),
+    (Modifier::CROSSED_OUT, 9),
+];
+
+/// Appends the parameters that select `after` where `before` is selected.
+fn select(before: TerminalInk, after: TerminalInk, out: &mut Vec<u8>) {
+    if before.modifier != after.modifier {
         let mut had = before.modifier;
-        for (modifiers, off) in [
-            (Modifier::BOLD | Modifier::DIM, 22),
-            (Modifier::ITALIC, 23),
-            (Modifier::UNDERLINED, 24),
-            (Modifier::REVERSED, 27),
-            (Modifier::CROSSED_OUT, 29),
-        ] {
+        for (modifiers, off) in OFF {
             if (had - after.modifier).intersects(modifiers) {
-                self.add(off);
+                add(off, out);
                 had -= modifiers;
             }
         }
-        for (modifier, on) in [
-            (Modifier::BOLD, 1),
-            (Modifier::DIM, 2),
-            (Modifier::ITALIC, 3),
-            (Modifier::UNDERLINED, 4),
-            (Modifier::REVERSED, 7),
-            (Modifier::CROSSED_OUT, 9),
-        ] {
+        for (modifier, on) in ON {
             if (after.modifier - had).contains(modifier) {
-                self.add(on);
+                add(on, out);
             }
         }
-        if before.fg != after.fg {
-            self.color(after.fg, 30);
-        }
-        if before.bg != after.bg {
-            self.color(after.bg, 40);
-        }
     }
-
-    /// One more parameter.
-    fn add(&mut self, parameter: u16) {
-        if !matches!(self.bytes(), [] | [.., b';']) {
-            self.push(b";");
-        }
-        self.push_number(parameter);
+    if before.fg != after.fg {
+        add_color(after.fg, 30, out);
     }
+    if before.bg != after.bg {
+        add_color(after.bg, 40, out);
+    }
+}
 
-    /// The parameters of a colour of the ground that starts at `base`: 30 or 40.
-    fn color(&mut self, color: Color, base: u16) {
-        let named = |color: Color| NAMED.iter().position(|&named| named == color);
-        match color {
-            Color::Reset => self.add(base + 9),
-            Color::Indexed(i @ 0..16) => self.basic(i.into(), base),
-            Color::Indexed(i) => {
-                for parameter in [base + 8, 5, i.into()] {
-                    self.add(parameter);
-                }
+/// One more parameter.
+fn add(parameter: u16, out: &mut Vec<u8>) {
+    if !out.ends_with(b"[") && !out.ends_with(b";") {
+        out.push(b';');
+    }
+    push_number(parameter, out);
+}
+
+/// The parameters of a colour of the ground that starts at `base`: 30 or 40.
+fn add_color(color: Color, base: u16, out: &mut Vec<u8>) {
+    let basic = |i: u16| if i < 8 { base + i } else { base + 60 + i - 8 };
+    match color {
+        Color::Reset => add(base + 9, out),
+        Color::Indexed(i @ 0..16) => add(basic(i.into()), out),
+        Color::Indexed(i) => {
+            add(base + 8, out);
+            out.extend_from_slice(b";5;");
+            push_number(i.into(), out);
+        }
+        Color::Rgb(r, g, b) => {
+            add(base + 8, out);
+            out.extend_from_slice(b";2");
+            for channel in [r, g, b] {
+                out.push(b';');
+                push_number(channel.into(), out);
             }
-            Color::Rgb(r, g, b) => {
-                for parameter in [base + 8, 2, r.into(), g.into(), b.into()] {
-                    self.add(parameter);
-                }
-            }
-            color => self.basic(named(color).unwrap_or(0) as u16, base),
         }
-    }
-
-    fn basic(&mut self, i: u16, base: u16) {
-        self.add(if i < 8 { base + i } else { base + 60 + i - 8 });
+        color => {
+            let place = NAMED.iter().position(|&named| named == color);
+            add(basic(place.unwrap_or(0) as u16), out);
+        }
     }
 }
 
