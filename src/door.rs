@@ -217,7 +217,7 @@ pub enum Refusal {
 impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Special(_) => f.write_str("it is no regular file"),
+            Self::Special(_) => f.write_str("it is not a regular file"),
             Self::System(error) => write!(f, "{}", plain(error)),
         }
     }

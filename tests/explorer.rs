@@ -1566,7 +1566,7 @@ fn pixels_are_collected_in_a_file_that_is_one_of_rows() {
     for name in ["pipe", "null"] {
         person
             .commands(&format!("append {name}"))
-            .shows("it is no regular file");
+            .shows("it is not a regular file");
     }
 }
 

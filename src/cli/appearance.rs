@@ -17,8 +17,7 @@ pub(super) struct Appearance {
     #[command(flatten)]
     color: Color,
 
-    /// The colours for a kind of screen [default: dark, or light where the terminal reports a light
-    /// ground]
+    /// The colours for a kind of screen [default: dark, or light where the terminal reports a light background]
     #[arg(long, env = "RAYSCOPE_THEME", hide_env_values = true, value_parser = choice(&Palette::ALL, Palette::name))]
     theme: Option<Palette>,
 

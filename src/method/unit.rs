@@ -89,7 +89,7 @@ impl Formula for Unit {
                 formula: "1",
                 template: "1",
                 code: "let reduced = bb - c;",
-                why: "What multiplies t², d·d, is taken to be 1 and left out.",
+                why: "d·d, which multiplies t², is taken to be 1 and left out.",
             },
             1.0,
             a.exact(),

@@ -22,7 +22,7 @@ pub(super) fn refusal(function: F) -> String {
         | F::Tanh
         | F::Asinh
         | F::Acosh
-        | F::Atanh => "no two machines round it alike, and a sphere needs + - * / and sqrt alone",
+        | F::Atanh => "no two machines round it alike, and a sphere needs only + - * / and sqrt",
         _ => "a ray and a sphere need + - * / and sqrt",
     };
     format!("{name} is not run here: {why}")

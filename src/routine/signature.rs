@@ -333,7 +333,7 @@ fn said_roles(line: usize, said: &str, ins: &[&Leaf]) -> Result<Vec<ParameterRol
     for word in said.split(',') {
         let role = ParameterRole::said(word).ok_or_else(|| {
             refuse(format!(
-                "{} is no role; there are origin, direction, center, radius, radius squared, sphere, least t, greatest t",
+                "{} is not a role; the roles are origin, direction, center, radius, radius squared, sphere, least t, greatest t",
                 word.trim()
             ))
         })?;
@@ -416,7 +416,7 @@ fn usual_roles(ins: &[&Leaf]) -> Result<Vec<ParameterRole>, String> {
             })
             .expect("some name disagrees");
         return Err(format!(
-            "{} reads like the {}, but stands where another is expected; a comment line says what is what: // roles: origin, direction, center, radius",
+            "{} reads like the {}, but is where another is expected; a comment line says what is what: // roles: origin, direction, center, radius",
             leaf.name,
             role.name()
         ));

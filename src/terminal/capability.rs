@@ -79,7 +79,7 @@ impl Capability {
             .unwrap_or_else(|| {
                 environment.with(
                     ColorDepth::None,
-                    "the output does not go to a terminal that has any",
+                    "the output is not a terminal with colours",
                 )
             })
     }
@@ -161,9 +161,9 @@ impl Environment {
             .as_deref()
             .and_then(|v| v.rsplit(';').next());
         match ground {
-            Some("7" | "15") => (Palette::Light, "COLORFGBG says the ground is light"),
-            Some(_) => (Palette::Dark, "COLORFGBG says the ground is dark"),
-            None => (Palette::Either, "the ground is not known yet"),
+            Some("7" | "15") => (Palette::Light, "COLORFGBG says the background is light"),
+            Some(_) => (Palette::Dark, "COLORFGBG says the background is dark"),
+            None => (Palette::Either, "the background is not known yet"),
         }
     }
 }

@@ -476,7 +476,7 @@ fn caption(
         );
     }
     if view.axis.pieces.len() > 1 {
-        caption.say(Role::Faint, "~/~/~ leaves out so much of the line");
+        caption.say(Role::Faint, "~/~/~ a gap, its length beside it");
     }
     caption
 }

@@ -47,9 +47,9 @@ impl Palette {
     /// What it is for, in a few words.
     pub const fn words(self) -> &'static str {
         match self {
-            Self::Dark => "for a dark ground",
-            Self::Light => "for a light ground",
-            Self::Either => "for either ground",
+            Self::Dark => "for a dark background",
+            Self::Light => "for a light background",
+            Self::Either => "for either background",
             Self::HighContrast => "white on black, nothing faint",
             Self::Monochrome => "no colours",
         }

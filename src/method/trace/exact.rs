@@ -131,7 +131,7 @@ fn sign_step(discriminant: &Discriminant<f64>) -> TraceStep {
         ),
         measured(bound, Surd::from_f64(bound)),
         "let threshold = self.threshold();",
-        "How far rounding may have moved D: farther from 0 than that, and its sign is right.",
+        "How far rounding may have moved D. If D is farther from 0 than that, its sign is right.",
     )
 }
 
@@ -241,7 +241,7 @@ fn stage_step(truth: &Truth, record: &Record, found: &Findings) -> TraceStep {
         ),
         Stage::DoubleDouble => (
             "D, double-double",
-            "The same formulas with twice the bits, and a bound that is so much smaller.",
+            "The same formulas with twice the bits, and a much smaller bound.",
             "Stage::DoubleDouble => Some(double_double(input, open)),",
         ),
         Stage::Integer => (
@@ -285,15 +285,15 @@ fn answer_steps(truth: &Truth, record: &Record) -> [TraceStep; 2] {
         let (code, why) = match stage {
             Stage::Binary64 => (
                 "let [t, too] = bounds.map(rounding::round);",
-                "Both ends of what the bound leaves round to this one number.",
+                "Both ends of the interval that the bound leaves round to this one number.",
             ),
             Stage::Unrounded => (
                 "let settle = |_, bounded| rounding::by_bound(bounded);",
-                "Both ends of what the bound leaves round to this one number.",
+                "Both ends of the interval that the bound leaves round to this one number.",
             ),
             Stage::Compensated => (
                 "settled: rounding::by_bound(bounded),",
-                "Both ends of what the bound leaves round to this one number.",
+                "Both ends of the interval that the bound leaves round to this one number.",
             ),
             Stage::Whole | Stage::DoubleDouble | Stage::Integer => (
                 "None => rounding::by_signs(which, bounded, quadratic),",

@@ -112,7 +112,7 @@ impl<'a> Builder<'a> {
             },
             Expression::GlobalVariable(global) => match self.globals.get(global) {
                 Some(storage) => Ok(Variable::whole(self, *storage)),
-                None => self.refuse("a routine gets a ray and a sphere alone"),
+                None => self.refuse("a routine gets only a ray and a sphere"),
             },
             Expression::FunctionArgument(i) => match frame.arguments.get(*i as usize) {
                 Some(Argument::Variable(variable)) => Ok(*variable),

@@ -53,7 +53,7 @@ fn globals(builder: &mut Builder<'_>) -> Result<(), RoutineError> {
         if global.space != AddressSpace::Private {
             let at = module.global_variables.get_span(handle).to_range();
             let problem =
-                format!("{name} comes from outside, and a routine gets a ray and a sphere alone");
+                format!("{name} comes from outside, and a routine gets only a ray and a sphere");
             return Err(builder
                 .source
                 .error(at.map_or(0, |range| range.start), problem));
