@@ -227,7 +227,7 @@ fn lines_of_text_have_the_names_of_the_menu_and_an_empty_one_is_the_next_step() 
         "step 3 of",
         "step 2 of",
         "undo brings it back",
-        "Taken back: sphere 1 was made smaller.",
+        "Undone: sphere 1 was made smaller.",
     ] {
         script.says(text);
     }

@@ -910,8 +910,8 @@ fn undo_and_redo_say_what_they_did() {
         person
             .presses(keys)
             .presses("u")
-            .shows(&format!("Taken back: {deed}."));
-        person.presses("U").shows(&format!("Done again: {deed}."));
+            .shows(&format!("Undone: {deed}."));
+        person.presses("U").shows(&format!("Redone: {deed}."));
     }
 }
 

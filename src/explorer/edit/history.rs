@@ -13,13 +13,13 @@ pub(crate) fn act(action: Action, state: &mut State) -> bool {
             let nothing = state.work.document.is_as_opened();
             if !(nothing && keep::bring_back_discarded(state)) {
                 let deed = state.work.document.undoes();
-                let deed = deed.map(|deed| format!("Taken back: {deed}."));
+                let deed = deed.map(|deed| format!("Undone: {deed}."));
                 travel(state, Document::undo, deed, "Nothing to undo.");
             }
         }
         Action::Redo => {
             let deed = state.work.document.redoes();
-            let deed = deed.map(|deed| format!("Done again: {deed}."));
+            let deed = deed.map(|deed| format!("Redone: {deed}."));
             travel(state, Document::redo, deed, "Nothing to redo.");
         }
         Action::Reset => reset(state),
