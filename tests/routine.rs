@@ -314,27 +314,45 @@ fn a_replaced_text_frees_the_ones_before_it_and_old_handles_still_answer() {
     assert_eq!(Method::Routine(first).solve(&ray, &sphere).near, 29.0);
 }
 
-/// An explorer with a routine in a folder of its own, and what it rings when the file has changed.
-fn explorer_with(name: &str, text: &str) -> (tempfile::TempDir, Explorer, Receiver<()>) {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join(name), text).unwrap();
+/// An explorer of the tutorial's scene in that folder, and what it rings when a file has changed.
+fn explorer_in(folder: &Path) -> (Explorer, Receiver<()>) {
     let source = Source::Builtin(Builtin::Tutorial);
     let mut explorer = Explorer::new(Builtin::Tutorial.scene(), &source, Options::default());
-    explorer.work_in(Workplace::within(folder.path()), &source);
+    let mut workplace = Workplace::within(folder);
+    workplace.state = Some(folder.join("state"));
+    explorer.work_in(workplace, &source);
     let (ring, rung) = mpsc::channel();
     explorer.wake_by(Waker::new(move || {
         // Nobody listens any more once the test has ended.
         let _ = ring.send(());
     }));
-    for c in format!(":method {name}\r").chars() {
-        let code = if c == '\r' {
+    (explorer, rung)
+}
+
+fn press(explorer: &mut Explorer, code: KeyCode, modifiers: KeyModifiers) -> String {
+    explorer.update(&Event::Key(KeyEvent::new(code, modifiers)));
+    screen(explorer)
+}
+
+/// Types a text, with enter at the end of its lines.
+fn types(explorer: &mut Explorer, text: &str) -> String {
+    for c in text.chars() {
+        let code = if c == '\n' {
             KeyCode::Enter
         } else {
             KeyCode::Char(c)
         };
-        explorer.update(&Event::Key(KeyEvent::new(code, KeyModifiers::NONE)));
+        press(explorer, code, KeyModifiers::NONE);
     }
-    explorer.prepare(80, 24);
+    screen(explorer)
+}
+
+/// An explorer with a routine in a folder of its own, and what it rings when the file has changed.
+fn explorer_with(name: &str, text: &str) -> (tempfile::TempDir, Explorer, Receiver<()>) {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join(name), text).unwrap();
+    let (mut explorer, rung) = explorer_in(folder.path());
+    types(&mut explorer, &format!(":method {name}\n"));
     (folder, explorer, rung)
 }
 
@@ -361,4 +379,95 @@ fn a_routine_that_is_saved_is_read_again_and_one_with_an_error_is_not_taken() {
     let missed = is_saved(&text.replace("< 0.0", "< 0.0 0.0"));
     assert!(missed.contains("the one before stays"), "{missed}");
     assert!(missed.contains(" mine.glsl "), "{missed}");
+}
+
+#[test]
+fn a_routine_is_typed_and_the_picture_follows_the_last_text_without_an_error() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut explorer, _rung) = explorer_in(folder.path());
+    let found = types(&mut explorer, ":routine mine\n");
+    assert!(found.contains("bool intersectRaySphere("), "{found}");
+    let meets = |explorer: &Explorer| {
+        let subject = explorer.reading().unwrap().subject.as_ref();
+        subject.is_some_and(|subject| subject.solution.class.meets())
+    };
+    assert!(meets(&explorer));
+    let paste = |explorer: &mut Explorer, text: &str| {
+        explorer.update(&Event::Paste(text.to_owned()));
+        screen(explorer)
+    };
+    let miss = "bool f(vec3 ro, vec3 rd, vec3 ce, float ra) {\r  return ra < 0.0;\r}\rq";
+    let found = paste(&mut explorer, miss);
+    assert!(found.contains("│! 4 q//"), "{found}");
+    assert!(found.contains("line 4:"), "{found}");
+    assert!(meets(&explorer), "the text before the error is drawn");
+    press(&mut explorer, KeyCode::Backspace, KeyModifiers::NONE);
+    let found = types(&mut explorer, "// routine: f\n");
+    assert!(!found.contains("line 4:"), "{found}");
+    assert!(!meets(&explorer), "{found}");
+    let asked = press(&mut explorer, KeyCode::Esc, KeyModifiers::NONE);
+    assert!(asked.contains("The text is not saved."), "{asked}");
+    types(&mut explorer, "s");
+    let saved = fs::read_to_string(folder.path().join("mine.glsl")).unwrap();
+    assert!(saved.starts_with("bool f(vec3 ro"), "{saved}");
+    assert_eq!(explorer.viewpoint().method.name(), "mine.glsl");
+}
+
+#[test]
+fn what_is_typed_is_dropped_only_by_an_answer_and_replaces_no_change_of_the_file() {
+    let text = fs::read_to_string("tests/routines/textbook.glsl").unwrap();
+    let (folder, mut explorer, _rung) = explorer_with("mine.glsl", &text);
+    let file = folder.path().join("mine.glsl");
+    types(&mut explorer, ":routine\n// typed\n");
+    fs::write(&file, text.replace("origin", "start")).unwrap();
+    let asked = press(&mut explorer, KeyCode::Char('s'), KeyModifiers::CONTROL);
+    assert!(asked.contains("was changed by somebody else"), "{asked}");
+    types(&mut explorer, "o");
+    assert!(fs::read_to_string(&file).unwrap().starts_with("// typed\n"));
+    types(&mut explorer, "// more\n");
+    let asked = press(&mut explorer, KeyCode::Char('c'), KeyModifiers::CONTROL);
+    assert!(asked.contains("The text is not saved."), "{asked}");
+    types(&mut explorer, "D");
+    assert!(!fs::read_to_string(&file).unwrap().contains("// more"));
+    let found = types(&mut explorer, ":routine\n");
+    assert!(
+        found.contains("// typed") && !found.contains("// more"),
+        "{found}"
+    );
+    assert_eq!(explorer.ended(), None);
+}
+
+#[test]
+fn what_was_typed_outlives_the_terminal() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut explorer, _rung) = explorer_in(folder.path());
+    types(&mut explorer, ":routine mine.wgsl\n// typed\n");
+    explorer.finish().unwrap();
+    let (mut again, _rung) = explorer_in(folder.path());
+    let found = types(&mut again, ":routine mine.wgsl\n");
+    assert!(found.contains("// typed"), "{found}");
+    assert!(found.contains("typed before and not saved"), "{found}");
+    press(&mut again, KeyCode::Esc, KeyModifiers::NONE);
+    types(&mut again, "D");
+    let found = types(&mut again, ":routine mine.wgsl\n");
+    assert!(!found.contains("// typed"), "{found}");
+}
+
+#[test]
+fn what_can_not_be_typed_is_refused_in_a_sentence() {
+    let folder = tempfile::tempdir().unwrap();
+    let (mut explorer, _rung) = explorer_in(folder.path());
+    for (line, sentence) in [
+        (":routine\n", "expected a name after it"),
+        (":routine mine.toml\n", "ends in .glsl or .wgsl"),
+        (":routine ../mine.glsl\n", "outside of the folder"),
+        (":edit mine.glsl\n", "no program is started here"),
+    ] {
+        let found = types(&mut explorer, line);
+        assert!(found.contains(sentence), "{line}: {found}");
+    }
+    types(&mut explorer, ":routine mine\n");
+    explorer.update(&Event::Paste("/".repeat(rayscope::routine::LONGEST)));
+    let found = screen(&mut explorer);
+    assert!(found.contains("at most 64 KiB"), "{found}");
 }

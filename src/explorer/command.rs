@@ -49,6 +49,12 @@ pub(crate) enum Command {
     Dial(&'static Dial, Option<u32>),
     /// Open the tour at this chapter.
     Tour(String),
+    /// Open the text of this routine, or of the chosen one.
+    Routine(String),
+    /// Open its file in the person's own editor.
+    Edit(String),
+    /// Close the text of a routine: an answer.
+    CloseText { save: bool },
 }
 
 /// A command with an argument that is no setting: its name, what follows, what it does.
@@ -73,6 +79,16 @@ const WITH_ARGUMENT: &[(&str, &str, &str)] = &[
         "append",
         "FILE",
         "append this pixel to a CSV file for `rayscope grade`",
+    ),
+    (
+        "routine",
+        "FILE",
+        "type a routine of your own; without FILE, the chosen one",
+    ),
+    (
+        "edit",
+        "FILE",
+        "the same in $VISUAL or $EDITOR, where a shell started rayscope",
     ),
     ("tour", "CHAPTER", "open the tour at a chapter"),
     ("quit!", "", "quit without asking"),
@@ -113,6 +129,8 @@ impl Command {
             "append" => argument(rest, "append", "a file name").map(Self::Append),
             "dial" => dial(rest),
             "tour" => argument(rest, "tour", "a chapter's name or number").map(Self::Tour),
+            "routine" => Ok(Self::Routine(rest.to_owned())),
+            "edit" => Ok(Self::Edit(rest.to_owned())),
             "" => Err("Type a command; tab completes, esc leaves.".into()),
             _ => match SettingRow::by_name(name).filter(|row| row.command.is_some()) {
                 Some(row) => setting::parse(row, rest).map(Self::Set),
@@ -194,6 +212,10 @@ pub struct Candidate {
     pub help: &'static str,
 }
 
+/// How the names of scene files end, and those of routines.
+const SCENES: [&str; 1] = ["toml"];
+const ROUTINES: [&str; 2] = ["glsl", "wgsl"];
+
 /// All lines that the line typed so far could become: of names, the likeliest first.
 pub fn candidates(line: &str, workplace: &Workplace) -> Vec<Candidate> {
     let Some((name, typed)) = line.split_once(' ') else {
@@ -205,10 +227,16 @@ pub fn candidates(line: &str, workplace: &Workplace) -> Vec<Candidate> {
         "tour" => tour::builtin().iter().map(|c| c.name.clone()).collect(),
         "open" => {
             let mut words: Vec<_> = Builtin::ALL.iter().map(|b| b.name().to_owned()).collect();
-            words.extend(workplace.names_starting_with(typed));
+            words.extend(workplace.names_starting_with(typed, &SCENES));
             words
         }
-        "save-as" | "append" => workplace.names_starting_with(typed),
+        "save-as" | "append" => workplace.names_starting_with(typed, &SCENES),
+        "routine" | "edit" => workplace.names_starting_with(typed, &ROUTINES),
+        "method" | "compare" => {
+            let mut words = SettingRow::by_name(name).map_or_else(Vec::new, |row| (row.choices)());
+            words.extend(workplace.names_starting_with(typed, &ROUTINES));
+            words
+        }
         _ => SettingRow::by_name(name).map_or_else(Vec::new, |row| (row.choices)()),
     };
     let words = words.into_iter().filter(|word| word.starts_with(typed));

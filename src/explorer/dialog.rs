@@ -19,6 +19,8 @@ pub(crate) enum Dialog {
     Prompt(Purpose, String),
     /// The numbers that can be typed.
     Form,
+    /// The text of a routine.
+    RoutineText,
     /// A question to be answered.
     Ask(Confirmation),
 }
@@ -59,6 +61,7 @@ pub(crate) enum Confirmation {
     Go(Link),
     Recover { path: PathBuf, age: Duration },
     Tour,
+    CloseText,
     Overwrite { path: PathBuf, why: &'static str },
 }
 
@@ -81,6 +84,9 @@ impl Confirmation {
             ),
             Self::Tour => {
                 "Unsaved changes.  s save   t start the tour: your scene waits   esc stay".into()
+            }
+            Self::CloseText => {
+                "The text is not saved.  s save   D drop what was typed   esc go on typing".into()
             }
             Self::Overwrite { path, why } => {
                 format!("{} {why}.  o overwrite   esc keep it", path.display())

@@ -70,6 +70,11 @@ impl Key {
         Some(Self { code, modifiers })
     }
 
+    /// The event that a terminal makes of it.
+    pub fn event(self) -> KeyEvent {
+        KeyEvent::new(self.code, self.modifiers)
+    }
+
     /// The character that this key types, if it types one.
     pub fn typed(self) -> Option<char> {
         match self.code {

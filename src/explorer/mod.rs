@@ -26,11 +26,17 @@ mod panel;
 mod plain;
 mod prepare;
 mod progress;
+#[cfg(not(feature = "routine"))]
+#[path = "no_routine_text.rs"]
+mod routine_text;
+#[cfg(feature = "routine")]
+mod routine_text;
 mod routines;
 mod set;
 mod setting;
 mod state;
 pub mod tour;
+mod typing;
 mod viewpoint;
 mod walk;
 mod whole;

@@ -1,5 +1,7 @@
 //! How the explorer is drawn, why so, and what it asks of the loop that runs it.
 
+use std::path::PathBuf;
+
 use crate::explorer::draw::theme::Palette;
 use crate::render::ColorDepth;
 use crate::text::Glyphs;
@@ -72,6 +74,13 @@ pub enum Request {
     Suspend,
     /// Put this text where the person can paste it from.
     Copy(String),
+    /// Have the person edit this file of a routine, which is read again after that.
+    Edit {
+        /// As it was named.
+        name: String,
+        /// The file.
+        path: PathBuf,
+    },
     /// Draw all of the screen again, whatever the terminal shows.
     Redraw,
 }

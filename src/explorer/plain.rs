@@ -261,13 +261,16 @@ impl Explorer {
             Some(Request::Suspend) => {
                 return Err("suspend: there is no screen to leave; ctrl-z stops rayscope".into());
             }
+            Some(Request::Edit { .. }) => {
+                return Err("edit: there is no screen to leave; `method FILE` reads a file".into());
+            }
             Some(Request::Copy(_) | Request::Redraw) | None => {}
         }
         if self.is_asking() {
             return Ok(None);
         }
         match self.modes.pop() {
-            None | Some(Mode::Asking(_)) => Ok(None),
+            None | Some(Mode::Asking(_) | Mode::Routine(_)) => Ok(None),
             Some(Mode::Help(_) | Mode::Menu(_)) => help("").map(Some),
             Some(Mode::Case(ExportCase { form })) => {
                 let lines = export_case::lines(&self.state, form);

@@ -67,8 +67,10 @@ pub(crate) fn catch_up(state: &mut State) -> bool {
             ..
         } = state.routines[at].clone();
         let now = stamp(&path);
-        // A file that is gone for a moment is being replaced.
-        if now == was || now.is_none() {
+        let typing = state.typing.as_ref();
+        let is_open = typing.is_some_and(|open| open.path == path);
+        // A file that is gone for a moment is being replaced; what is typed is newer than any file.
+        if now == was || now.is_none() || is_open {
             continue;
         }
         state.routines[at].stamp = now;

@@ -16,7 +16,7 @@ use crate::explorer::files::rescue::Rescue;
 use crate::explorer::files::workplace::Workplace;
 use crate::explorer::mode::line::TypedLine;
 use crate::explorer::options::{Options, Request};
-use crate::explorer::own_routine::OwnRoutine;
+use crate::explorer::own_routine::{OpenText, OwnRoutine};
 use crate::explorer::panel::Panel;
 use crate::explorer::setting::Setting;
 use crate::explorer::viewpoint::Viewpoint;
@@ -78,6 +78,8 @@ pub(crate) struct State {
     pub(crate) sent: Option<[u64; 2]>,
     /// One's own methods that were opened.
     pub(crate) routines: Vec<OwnRoutine>,
+    /// The routine whose text is open.
+    pub(crate) typing: Option<OpenText>,
     /// Whether the picture is drawn with few shades, since its bytes go out slowly.
     pub(crate) coarse: bool,
 }
@@ -175,6 +177,7 @@ impl State {
             quits_once_saved: false,
             sent: None,
             routines: Vec::new(),
+            typing: None,
             coarse: false,
         }
     }

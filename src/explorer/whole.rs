@@ -1,7 +1,7 @@
 //! The explorer put together: events go to the mode on top or become actions, actions and commands
 //! go to the part that they belong to, and all parts are drawn.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -27,6 +27,7 @@ use crate::explorer::link::{self, Link, LinkPlace};
 use crate::explorer::mode::overlay::After;
 use crate::explorer::mode::{Mode, export_case};
 use crate::explorer::options::{Options, Request};
+use crate::explorer::own_routine::OpenText;
 use crate::explorer::panel::all::Panels;
 use crate::explorer::panel::dial::DialPanel;
 use crate::explorer::routines::{self, Watch};
@@ -35,7 +36,7 @@ use crate::explorer::setting::Setting;
 use crate::explorer::state::{State, Work};
 use crate::explorer::tour::{Chapter, Tour};
 use crate::explorer::viewpoint::Viewpoint;
-use crate::explorer::{cursor, look, prepare, walk};
+use crate::explorer::{cursor, look, prepare, typing, walk};
 use crate::render::Allowance;
 use crate::scene::{Scene, Source};
 use crate::system::Waker;
@@ -279,6 +280,15 @@ impl Explorer {
         self.panels.error.catch_up(&mut self.state) || is_said || is_read
     }
 
+    /// Draws by the routine in this file, which the person has edited.
+    pub fn take_edited(&mut self, name: String) {
+        let routine = Setting::Routine {
+            name,
+            beside: false,
+        };
+        set::set(&mut self.state, routine);
+    }
+
     /// Calls a measurement off before this process stops.
     pub fn pause(&mut self) {
         self.panels.error.pause();
@@ -308,8 +318,9 @@ impl Explorer {
     /// the person has not given up.
     pub fn finish(&mut self) -> Result<Option<PathBuf>, String> {
         self.tour.leave(&mut self.state);
+        let kept_text = typing::keep(&self.state);
         remembered::remember(&self.state.workplace, &self.state.chosen);
-        keep::finish(&mut self.state)
+        kept_text.and(keep::finish(&mut self.state))
     }
 }
 
@@ -387,7 +398,8 @@ impl Explorer {
     /// Text that was pasted goes into a line being typed; it is never a burst of commands.
     fn paste(&mut self, text: &str) {
         let mode = self.modes.last_mut();
-        if !mode.is_some_and(|mode| mode.layer_mut().paste(text)) {
+        let state = &mut self.state;
+        if !mode.is_some_and(|mode| mode.layer_mut().paste(text, state)) {
             self.state
                 .say("Pasted text does nothing here. Type : first to paste a command.");
         }
@@ -497,6 +509,9 @@ impl Explorer {
             }
             Command::Go(link) | Command::GoNow(link) => self.follow(&link),
             Command::SaveAs(name) => saving::save_as_named(state, &name),
+            Command::Overwrite(path) if is_of_text(state, &path) => {
+                typing::save(state, true);
+            }
             Command::Overwrite(path) => saving::write(state, &path, Over::Anything),
             Command::Recover(path) => keep::recover(state, &path),
             Command::Discard => keep::discard(state),
@@ -508,6 +523,13 @@ impl Explorer {
             },
             Command::Dial(dial, k) => self.panels.dial.dial_to(state, dial, k),
             Command::Tour(chapter) => self.tour.open_chapter(state, &chapter),
+            Command::Routine(name) => typing::open(state, &name),
+            Command::Edit(name) => typing::edit(state, &name),
+            Command::CloseText { save } => {
+                if typing::close(state, save) {
+                    self.modes.retain(|mode| !matches!(mode, Mode::Routine(_)));
+                }
+            }
             Command::TourNow => self.tour.visit_unsaved(state),
         }
         self.open_dialog();
@@ -550,8 +572,13 @@ impl Explorer {
     /// Ctrl-C ends the program as SIGINT would; with unsaved changes it asks first, once, and if it ends
     /// all the same they are kept as when the terminal is lost.
     fn interrupt(&mut self) {
-        let asked = self.modes.last().and_then(Mode::question) == Some(&Confirmation::Quit);
-        if self.state.is_worth_saving() && !asked {
+        let question = self.modes.last().and_then(Mode::question);
+        let asked = matches!(question, Some(Confirmation::Quit | Confirmation::CloseText));
+        let open = self.state.typing.as_ref();
+        if open.is_some_and(OpenText::is_changed) && !asked {
+            self.state.ask(Confirmation::CloseText);
+            self.open_dialog();
+        } else if self.state.is_worth_saving() && !asked {
             self.modes.clear();
             self.ask_before_quitting();
             self.open_dialog();
@@ -599,4 +626,10 @@ fn acts_on_picture(action: Action) -> bool {
         Group::Cursor | Group::Steps | Group::Laboratory
     );
     of_group || matches!(action, Add | Link | MakeTangent | SelectShown)
+}
+
+/// Whether a routine's text is open that belongs in this file.
+fn is_of_text(state: &State, path: &Path) -> bool {
+    let open = state.typing.as_ref();
+    open.is_some_and(|open| open.path == path)
 }

@@ -68,7 +68,7 @@ impl RoutineId {
             let problem = "a routine's name ends in .glsl or .wgsl";
             return Err(FileError::whole(path, problem));
         };
-        let text = FILE.text(path)?;
+        let text = Self::text_of(path)?;
         Self::learn(&path.to_string_lossy(), name, &text, language).map_err(|error| FileError {
             position: Some(TextPosition {
                 line: error.line,
@@ -76,6 +76,11 @@ impl RoutineId {
             }),
             ..FileError::whole(path, error.problem)
         })
+    }
+
+    /// The text in the file of a routine, right or wrong.
+    pub fn text_of(path: &Path) -> Result<String, FileError> {
+        FILE.text(path)
     }
 
     /// Compiles a text under a name; `key` tells apart what has the same name.

@@ -30,6 +30,14 @@ use std::fmt;
 /// The longest text of a routine, in bytes.
 pub const LONGEST: usize = 64 * 1024;
 
+/// What a routine of one's own may begin with: the tutorial's function.
+pub const fn template(language: Language) -> &'static str {
+    match language {
+        Language::Glsl => include_str!("template.glsl"),
+        Language::Wgsl => include_str!("template.wgsl"),
+    }
+}
+
 /// Why a text is no routine: where, and what is wrong, in a sentence without its full stop.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RoutineError {

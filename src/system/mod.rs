@@ -19,7 +19,7 @@ use ratatui::crossterm::event::Event;
 pub use platform::is_private;
 pub use platform::{
     Device, HostLock, Inbox, LineInput, create_private_folder, has_job_control, interrupt_flag,
-    is_terminal_gone, new_file_permissions, stop_job, stop_process,
+    is_terminal_gone, new_file_permissions, run_in_job, stop_job, stop_process,
 };
 
 /// The exit status of a program that lost its terminal: 128 and the number of SIGHUP.

@@ -10,14 +10,17 @@ use std::os::unix::net::UnixStream;
 #[cfg(target_os = "linux")]
 use std::os::unix::net::{SocketAddr, UnixDatagram};
 use std::path::Path;
+use std::process::Command;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use rustix::event::{PollFd, PollFlags, Timespec, poll};
 use rustix::fs::{FlockOperation, Mode, OFlags, flock, open};
-use rustix::io::{Errno, dup, read, write};
-use rustix::process::{Signal, getpgrp, getsid, kill_current_process_group};
+use rustix::io::{Errno, dup, read, retry_on_intr, write};
+use rustix::process::{
+    Pid, Signal, WaitOptions, getpgrp, getsid, kill_current_process_group, waitpid,
+};
 use rustix::stdio::{stdin, stdout};
 use rustix::termios::{
     OptionalActions, QueueSelector, Termios, tcflush, tcgetattr, tcgetwinsize, tcsetattr, ttyname,
@@ -288,6 +291,18 @@ pub fn stop_job() -> bool {
 /// Stops this process until told to go on.
 pub fn stop_process() -> io::Result<()> {
     low_level::raise(SIGSTOP)
+}
+
+/// Runs another program of this job to its end; while that is stopped, so is this process.
+pub fn run_in_job(program: &mut Command) -> io::Result<()> {
+    let child = Pid::from_child(&program.spawn()?);
+    loop {
+        let changed = retry_on_intr(|| waitpid(Some(child), WaitOptions::UNTRACED))?;
+        if !changed.is_some_and(|(_, status)| status.stopped()) {
+            return Ok(());
+        }
+        stop_process()?;
+    }
 }
 
 /// What is set once ctrl-c is pressed; pressed twice, it ends the program at once with that status.

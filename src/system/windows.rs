@@ -6,6 +6,7 @@ use std::fs::{File, OpenOptions, Permissions};
 use std::io::{self, Read as _, Write as _};
 use std::os::windows::fs::OpenOptionsExt as _;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -176,6 +177,11 @@ pub const fn stop_job() -> bool {
 /// Stops this process until told to go on: nobody asks for it.
 pub const fn stop_process() -> io::Result<()> {
     Ok(())
+}
+
+/// Runs another program of this job: nothing is, where there are no jobs.
+pub fn run_in_job(_: &mut Command) -> io::Result<()> {
+    Err(io::ErrorKind::Unsupported.into())
 }
 
 /// What is set once ctrl-c is pressed; pressed twice, it ends the program at once with that status.

@@ -86,6 +86,14 @@ pub fn run(explorer: &mut Explorer, session: &mut Session) -> io::Result<u8> {
                     explorer.tell("There is no shell to go back to; q quits.");
                 }
                 Some(Request::Copy(text)) => session.copy(&text)?,
+                Some(Request::Edit { name, path }) => {
+                    explorer.pause();
+                    match session.edit(&path)? {
+                        Ok(()) => explorer.take_edited(name),
+                        Err(sentence) => explorer.tell(&sentence),
+                    }
+                    due = true;
+                }
                 Some(Request::Redraw) => session.forget(),
                 Some(Request::Suspend) | None => {}
             }

@@ -4,6 +4,8 @@
 use std::collections::VecDeque;
 use std::io;
 use std::panic;
+use std::path::Path;
+use std::process::Command;
 use std::sync::{Arc, Mutex, MutexGuard, Once, PoisonError};
 use std::thread::{self, ThreadId};
 use std::time::{Duration, Instant};
@@ -13,9 +15,11 @@ use super::clipboard;
 use super::keyboard::{Keyboard, TerminalMessage};
 use super::pace::{Detail, Pace, QUERY};
 use super::painter::{Limits, Painter};
+use crate::door;
 use crate::explorer::Explorer;
 use crate::system::{
-    Device, HUNG_UP, Inbox, SignalRequest, Waker, has_job_control, stop_job, stop_process,
+    Device, HUNG_UP, Inbox, SignalRequest, Waker, has_job_control, run_in_job, stop_job,
+    stop_process,
 };
 use ratatui::buffer::Buffer;
 use ratatui::crossterm::event::Event;
@@ -403,6 +407,34 @@ impl Session {
         has_job_control() && stop_job()
     }
 
+    /// Gives the terminal to the person's editor, for this file, until that ends; or says why not.
+    pub(super) fn edit(&mut self, path: &Path) -> io::Result<Result<(), String>> {
+        // Whoever was given this program in the place of a shell is not to come to one through an editor.
+        if !has_job_control() {
+            return Ok(Err(
+                "edit: no shell started rayscope; `:routine` opens the text here.".into(),
+            ));
+        }
+        let editor = editor();
+        let words = shell_words::split(&editor).unwrap_or_default();
+        let Some((program, flags)) = words.split_first() else {
+            return Ok(Err(format!(
+                "edit: $VISUAL or $EDITOR is “{editor}”, expected a program"
+            )));
+        };
+        self.give_back();
+        let ran = run_in_job(Command::new(program).args(flags).arg(path));
+        // What asked to stop meant the editor.
+        let arrivals = self.inbox.wait(&self.device, false, Some(Duration::ZERO))?;
+        self.take_over()?;
+        for request in arrivals.signals {
+            if request != SignalRequest::Stop {
+                self.handle_signal(request)?;
+            }
+        }
+        Ok(ran.map_err(|error| format!("edit: {program}: {}", door::plain(&error))))
+    }
+
     /// Gives the terminal back and stops, as [`TerminalInput::Stop`] asks.
     pub(super) fn stop(&mut self) -> io::Result<()> {
         self.give_back();
@@ -414,6 +446,14 @@ impl Drop for Session {
     fn drop(&mut self) {
         self.give_back();
     }
+}
+
+/// The editor that the person has chosen, with its flags.
+fn editor() -> String {
+    let named = |name| std::env::var(name).ok().filter(|editor| !editor.is_empty());
+    named("VISUAL")
+        .or_else(|| named("EDITOR"))
+        .unwrap_or_else(|| "vi".to_owned())
 }
 
 fn held() -> MutexGuard<'static, Option<Held>> {

@@ -602,6 +602,43 @@ fn a_paste_is_no_burst_of_commands() {
     pty.is_restored();
 }
 
+#[cfg(feature = "routine")]
+#[test]
+fn a_routine_is_pasted_and_saved_without_a_shell() {
+    let mut pty = Pty::explorer(Start::default());
+    pty.sends(":edit mine\r");
+    pty.waits_to_show("no shell started rayscope");
+    pty.sends(":routine mine\r");
+    pty.waits_to_show("intersectRaySphere");
+    pty.sends("\x1b[200~float f(vec3 ro, vec3 rd) { q; }\r\x1b[201~");
+    pty.waits_to_show("line 1:");
+    pty.sends("\x15");
+    pty.waits_for("no error", |p| !p.shows("line 1:"));
+    pty.sends("\x1b[200~// pasted\r\x1b[201~\x13");
+    pty.waits_to_show("Saved");
+    let saved = fs::read_to_string(pty.file("mine.glsl")).expect("the file");
+    assert!(saved.starts_with("// pasted\n// The tutorial"), "{saved}");
+    pty.sends("\x1bq");
+    assert_eq!(pty.ends(), 0);
+    pty.is_restored();
+}
+
+#[cfg(feature = "routine")]
+#[test]
+fn ones_own_editor_has_the_terminal_until_it_ends() {
+    let shell = "set -m; \"$@\"; echo status $?";
+    let start = Start::default().through(shell);
+    let mut pty = Pty::explorer(start.env("EDITOR", "sed -i s/intersect/edited/"));
+    pty.sends(":edit mine\r");
+    pty.waits_to_show(" mine.glsl ");
+    pty.sends(":routine\r");
+    pty.waits_to_show("editedRaySphere");
+    pty.sends("\x1bq");
+    pty.waits_to_show("status 0");
+    assert_eq!(pty.ends(), 0);
+    pty.is_restored();
+}
+
 #[test]
 fn the_mouse_is_asked_for_by_a_key_and_given_back() {
     let mut pty = Pty::explorer(Start::default());

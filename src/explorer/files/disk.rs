@@ -1,5 +1,6 @@
 //! Scene files on disk: read, written whole or not at all, and never over somebody else's change.
 
+use std::ffi::OsStr;
 use std::fs::{self, File, Metadata, OpenOptions};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{self, Read, Seek, Write};
@@ -40,7 +41,7 @@ impl Stamp {
     }
 }
 
-fn digest(bytes: &[u8]) -> u64 {
+pub(crate) fn digest(bytes: &[u8]) -> u64 {
     let mut hasher = DefaultHasher::new();
     bytes.hash(&mut hasher);
     hasher.finish()
@@ -277,8 +278,9 @@ fn put(file: &mut File, bytes: &[u8], room: usize) -> io::Result<()> {
     file.sync_all()
 }
 
-/// Files and folders in `folder` whose names start like that, folders ending in `/`; each after `head`.
-pub fn starting_with(folder: &Path, head: &str, start: &str) -> Vec<String> {
+/// Files with one of these endings and folders in `folder` whose names start like that, folders ending in `/`; each
+/// after `head`.
+pub fn starting_with(folder: &Path, head: &str, start: &str, endings: &[&str]) -> Vec<String> {
     let Ok(entries) = fs::read_dir(folder) else {
         return Vec::new();
     };
@@ -288,7 +290,8 @@ pub fn starting_with(folder: &Path, head: &str, start: &str) -> Vec<String> {
             let name = entry.file_name().into_string().ok()?;
             let hidden = name.starts_with('.') && !start.starts_with('.');
             let end = if entry.path().is_dir() { "/" } else { "" };
-            let fits = end == "/" || entry.path().extension().is_some_and(|e| e == "toml");
+            let is_wanted = |e: &OsStr| endings.iter().any(|ending| e == *ending);
+            let fits = end == "/" || entry.path().extension().is_some_and(is_wanted);
             (name.starts_with(start) && fits && !hidden).then(|| format!("{head}{name}{end}"))
         })
         .collect();

@@ -63,6 +63,7 @@ pub(crate) fn replace(state: &mut State, scene: Scene, source: &Source) {
     state.chosen = before.chosen;
     state.names_actions = before.names_actions;
     state.workplace = before.workplace;
+    state.routines = before.routines;
     keep::keep_on(state, before.rescue, source);
     let about = state.scene().about.clone().unwrap_or_default();
     state.say(format!("{}. {about}", state.scene().name));

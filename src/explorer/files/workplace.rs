@@ -92,6 +92,18 @@ impl Workplace {
         Some(self.state.as_ref()?.join(name))
     }
 
+    /// Where the unsaved text of a routine is kept, for each file of each person.
+    pub(crate) fn kept_text(&self, path: &Path) -> Option<PathBuf> {
+        let path = std::path::absolute(path).ok()?;
+        let name = disk::digest(format!("{} {}", self.person, path.display()).as_bytes());
+        Some(self.state.as_ref()?.join(format!("routine-{name:016x}")))
+    }
+
+    /// Whether programs of the person may be started here.
+    pub(crate) const fn starts_programs(&self) -> bool {
+        !self.is_confined
+    }
+
     /// No place but a folder to keep unsaved work in.
     #[cfg(test)]
     pub(crate) fn keeping_in(state: &Path) -> Self {
@@ -124,12 +136,12 @@ impl Workplace {
         }
     }
 
-    /// Names of files and folders that start with what was typed, folders ending in `/`.
-    pub(crate) fn names_starting_with(&self, typed: &str) -> Vec<String> {
+    /// Names of files with one of these endings and of folders that start with what was typed, folders ending in `/`.
+    pub(crate) fn names_starting_with(&self, typed: &str, endings: &[&str]) -> Vec<String> {
         let folder = typed.rfind('/').map_or("", |at| &typed[..=at]);
         let folder_of = if folder.is_empty() { "." } else { folder };
         match self.reach(folder_of) {
-            Ok(path) => disk::starting_with(&path, folder, &typed[folder.len()..]),
+            Ok(path) => disk::starting_with(&path, folder, &typed[folder.len()..], endings),
             Err(_) => Vec::new(),
         }
     }

@@ -62,7 +62,7 @@ impl Overlay for NumbersForm {
         After::Stay
     }
 
-    fn paste(&mut self, text: &str) -> bool {
+    fn paste(&mut self, text: &str, _: &mut State) -> bool {
         let line = self.typing.as_mut();
         line.map(|line| line.insert(text)).is_some()
     }

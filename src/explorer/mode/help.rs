@@ -136,7 +136,7 @@ impl Overlay for Help {
         After::Stay
     }
 
-    fn paste(&mut self, text: &str) -> bool {
+    fn paste(&mut self, text: &str, _: &mut State) -> bool {
         let filter = self.filter.as_mut();
         filter.map(|filter| filter.insert(text)).is_some()
     }

@@ -9,6 +9,7 @@ mod menu;
 pub(crate) mod overlay;
 mod prompt;
 mod question;
+mod routine;
 
 use crate::explorer::dialog::{Confirmation, Dialog};
 use crate::explorer::mode::overlay::Overlay;
@@ -19,6 +20,7 @@ pub(crate) use help::Help;
 pub(crate) use menu::Menu;
 pub(crate) use prompt::Prompt;
 pub(crate) use question::Asking;
+pub(crate) use routine::RoutineEditor;
 
 /// A mode that is open.
 #[derive(Debug, PartialEq)]
@@ -28,6 +30,7 @@ pub(crate) enum Mode {
     Case(ExportCase),
     Prompt(Prompt),
     Form(NumbersForm),
+    Routine(RoutineEditor),
     Asking(Asking),
 }
 
@@ -39,6 +42,7 @@ impl Mode {
             Dialog::Case(form) => Self::Case(ExportCase { form }),
             Dialog::Prompt(purpose, text) => Self::Prompt(Prompt::new(purpose, &text)),
             Dialog::Form => Self::Form(NumbersForm::default()),
+            Dialog::RoutineText => Self::Routine(RoutineEditor),
             Dialog::Ask(question) => Self::Asking(Asking {
                 question,
                 is_shown: false,
@@ -53,6 +57,7 @@ impl Mode {
             Self::Case(mode) => mode,
             Self::Prompt(mode) => mode,
             Self::Form(mode) => mode,
+            Self::Routine(mode) => mode,
             Self::Asking(mode) => mode,
         }
     }
@@ -64,6 +69,7 @@ impl Mode {
             Self::Case(mode) => mode,
             Self::Prompt(mode) => mode,
             Self::Form(mode) => mode,
+            Self::Routine(mode) => mode,
             Self::Asking(mode) => mode,
         }
     }

@@ -26,7 +26,7 @@ pub(crate) trait Overlay {
     fn press(&mut self, key: Key, state: &mut State) -> After;
 
     /// Takes text that was pasted; false if nothing is typed here.
-    fn paste(&mut self, _text: &str) -> bool {
+    fn paste(&mut self, _text: &str, _state: &mut State) -> bool {
         false
     }
 

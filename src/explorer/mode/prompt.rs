@@ -132,7 +132,7 @@ impl Overlay for Prompt {
         After::Stay
     }
 
-    fn paste(&mut self, text: &str) -> bool {
+    fn paste(&mut self, text: &str, _: &mut State) -> bool {
         self.line.insert(text);
         self.candidates.clear();
         self.chosen = None;

@@ -24,7 +24,7 @@ impl Confirmation {
     /// Whether something is lost by this answer.
     fn loses_by(&self, key: Key) -> bool {
         match self {
-            Self::Quit | Self::Recover { .. } => key.is("D"),
+            Self::Quit | Self::CloseText | Self::Recover { .. } => key.is("D"),
             Self::Open(_) | Self::Go(_) | Self::Overwrite { .. } => key.is("o"),
             Self::Tour => false,
         }
@@ -53,6 +53,8 @@ impl Overlay for Asking {
                 keep::put_off(state);
                 After::Do(Command::Do(Action::Quit))
             }
+            Confirmation::CloseText if key.is("s") => After::Do(Command::CloseText { save: true }),
+            Confirmation::CloseText if key.is("D") => After::Do(Command::CloseText { save: false }),
             Confirmation::Tour if key.is("t") => After::Do(Command::TourNow),
             Confirmation::Tour if key.is("s") => After::Do(Command::Do(Action::Save)),
             Confirmation::Overwrite { path, .. } if key.is("o") => {
