@@ -594,7 +594,7 @@ fn a_paste_is_no_burst_of_commands() {
     let mut pty = Pty::explorer(Start::default());
     assert!(pty.screen().bracketed_paste());
     pty.sends("\x1b[200~xxq\x03q\r\x1b[201~");
-    pty.waits_to_show("A paste is not taken for keys");
+    pty.waits_to_show("Pasted text does nothing here");
     pty.sends(":\x1b[200~cursor 1 2\x1b[201~\r");
     pty.waits_to_show("pixel (1, 2)");
     pty.sends("q");
