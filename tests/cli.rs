@@ -467,7 +467,7 @@ fn no_flag_is_passed_over_in_silence() {
 }
 
 #[test]
-fn whoever_reads_no_more_hears_no_complaint() {
+fn a_reader_that_stops_hears_no_complaint() {
     use std::fmt::Write as _;
     use std::io::Read;
 

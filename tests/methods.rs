@@ -304,7 +304,7 @@ fn score(method: Method, rays: &[(Ray, Sphere)]) -> (f64, f64) {
     (100.0 * f64::from(wrong) / rays.len() as f64, median)
 }
 
-/// The table of docs/methods.md, computed anew.
+/// The table of docs/methods.md, computed again.
 fn table() -> String {
     let families = [
         "typical",

@@ -113,7 +113,7 @@ impl Pair {
                 assert_eq!(planned, whole, "{method}, {}", view.name());
             }
         }
-        // The picture that is mended cell by cell is the one that is drawn anew.
+        // The picture that is mended cell by cell is the one that is drawn from scratch.
         let look = Look {
             style: Style::Braille,
             ..Look::default()
@@ -374,7 +374,7 @@ fn a_scene_that_moved_as_a_whole_is_kept_when_it_rests() {
     crowd.bodies[2500].sphere.center.x += 0.05;
     let kept = check(&mut pair, &crowd, View::Shade);
     assert!(0 < kept && kept <= all, "{kept}");
-    // Of another scene nothing is known, be it as long as the sample.
+    // Nothing is known of another scene, even one as long as the sample.
     for body in &mut crowd.bodies {
         body.sphere.center.x += 0.01;
     }
@@ -618,9 +618,9 @@ fn the_command_prints_the_plan_of_three_frames() {
     assert_eq!(line(0, "columns of rows"), [317, 1283]);
     assert_eq!(line(0, "shades"), [317, 1283]);
     assert_eq!(line(0, "B")[0], 1);
-    assert_eq!(line(1, "pixels anew"), [0, 1600]);
+    assert_eq!(line(1, "pixels redrawn"), [0, 1600]);
     assert_eq!(line(1, "bytes sent")[0], 0);
-    assert!(line(2, "pixels anew")[0] < 500);
+    assert!(line(2, "pixels redrawn")[0] < 500);
     assert!(line(2, "bytes sent")[1] > 0);
     let (csv, _, _) = rayscope(&["plan", "trio", "--method", "kahan", "--format", "csv"]);
     assert!(csv.starts_with("frame,what,kept,left_out,because\nwhole,"));

@@ -47,7 +47,7 @@ pub struct Span {
     pub role: Role,
 }
 
-/// What a piece of text is, for whoever colours it.
+/// What a piece of text is, for the code that colours it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
     /// Words.

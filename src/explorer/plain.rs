@@ -111,7 +111,7 @@ impl Explorer {
             self.look();
         }
         let refused = self.state.message.as_ref().is_some_and(|m| m.warning);
-        // Nobody wakes whoever waits for the next line.
+        // No waker runs while the next line is waited for.
         let said = self.state.message.take();
         keep::write_down_between_lines(&mut self.state);
         let warning = std::mem::replace(&mut self.state.message, said);

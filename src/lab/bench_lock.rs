@@ -1,5 +1,5 @@
 //! The right to measure, which one thread of the whole host has at a time: two measurements at
-//! once would time each other. Who asks while it is taken queues, and gets it in turn.
+//! once would time each other. A process that asks while it is taken queues and gets it in turn.
 //!
 //! The queue is a row of places, each the name of a [`HostLock`]. A newcomer takes the place behind
 //! the last that is taken; who waits moves up as the place before becomes free; who has place 0

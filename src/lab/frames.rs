@@ -1,6 +1,6 @@
 //! The time of whole frames, with the plan and without it, for growing numbers of spheres.
 //!
-//! Every sphere moves from frame to frame, so each frame is planned and asked anew; the plan's own time
+//! Every sphere moves from frame to frame, so each frame is planned and asked again; the plan's own time
 //! is part of its frame's.
 
 mod report;

@@ -1,7 +1,7 @@
 //! Routines as methods: a small handle into a library of compiled programs.
 //!
-//! The library has a shelf for each name, and a shelf the last few versions of its text: whoever types has the
-//! older ones freed, and a handle to one that is gone answers as the newest does.
+//! The library has a shelf for each name, and a shelf has the last few versions of its text: older ones are freed
+//! as new ones come, and a handle to one that is gone answers as the newest does.
 
 use std::cell::RefCell;
 use std::collections::VecDeque;
@@ -65,7 +65,7 @@ impl RoutineId {
     /// Reads and compiles a file, under that name.
     pub(super) fn load(name: &str, path: &Path) -> Result<Self, FileError> {
         let Some(language) = Language::of(name) else {
-            let problem = "a routine's name ends in .glsl or .wgsl";
+            let problem = "expected a file that ends in .glsl or .wgsl";
             return Err(FileError::whole(path, problem));
         };
         let text = Self::text_of(path)?;

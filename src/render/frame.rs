@@ -1,6 +1,6 @@
 //! The frame: for each pixel, which sphere is seen, at which root, and what the view shows of it.
 //!
-//! What the last frame found is kept where it still holds. What is asked anew is decided in
+//! What the last frame found is kept where it still holds. What is asked again is decided in
 //! [`super::plan`] and found by [`super::search`].
 
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -185,7 +185,7 @@ impl Frame {
         Question::new(&plan, &self.field, &scene.bodies, rays).bound(&mut self.room)
     }
 
-    /// The whole picture anew.
+    /// The whole picture from scratch.
     fn begin_whole(&mut self, scene: &Scene, rays: &Rays) {
         self.edition = EDITIONS.fetch_add(1, Ordering::Relaxed);
         self.differs_from = None;

@@ -51,7 +51,7 @@ impl Contact {
         matches!(self, Self::TangentBehind | Self::SecantBehind)
     }
 
-    /// Whether the line meets a sphere, be it behind the eye: the tutorial's boolean.
+    /// Whether the line meets a sphere, also behind the eye: the tutorial's boolean.
     pub const fn meets(self) -> bool {
         !matches!(self, Self::Miss | Self::Nan)
     }
@@ -148,7 +148,7 @@ impl Layer {
     }
 }
 
-/// Fills a buffer anew, in the memory that it has.
+/// Fills a buffer again, in the memory that it has.
 pub(super) fn refill<T: Copy>(buffer: &mut Vec<T>, length: usize, value: T) {
     buffer.clear();
     buffer.resize(length, value);

@@ -4,7 +4,7 @@ use super::bounds::Bounds;
 use crate::geometry::Sphere;
 use crate::scene::{Body, Rgb};
 
-/// With more changes than this a picture is made anew.
+/// With more changes than this a picture is made from scratch.
 pub(super) const MOST: usize = 32;
 
 /// Of a scene in which everything moves so many spheres are remembered, to see when it rests.

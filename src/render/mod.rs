@@ -1,7 +1,7 @@
 //! The view: rays → nearest hits → shade → glyphs. No terminal in it.
 //!
 //! A [`Frame`] holds what is known of each pixel; an [`Image`] holds the cells that show it in a
-//! [`Style`]. Both are kept and filled anew from frame to frame.
+//! [`Style`]. Both are kept and filled again from frame to frame.
 
 #![expect(
     clippy::inline_always,

@@ -1,4 +1,4 @@
-//! Files: opened without waiting for whoever is at the other end; what a file has beside its
+//! Files: opened without waiting for a process at the other end; what a file has beside its
 //! contents.
 
 use std::fs::{File, Metadata, OpenOptions};

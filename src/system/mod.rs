@@ -66,7 +66,7 @@ pub enum LinePart {
     Leave(u8),
 }
 
-/// Wakes whoever waits for input, from any thread; nobody, if nobody is set.
+/// Wakes the thread that waits for input, from any thread; does nothing if none is set.
 #[derive(Clone, Default)]
 pub struct Waker(Option<Arc<dyn Fn() + Send + Sync>>);
 

@@ -82,7 +82,7 @@ impl Default for Painter {
 }
 
 impl Painter {
-    /// Draws everything anew with the next frame.
+    /// Draws everything again with the next frame.
     pub const fn forget(&mut self) {
         self.lost = true;
     }

@@ -358,7 +358,7 @@ fn ctrl_z_gives_the_terminal_to_the_shell_and_fg_comes_back() {
 }
 
 #[test]
-fn whoever_is_stopped_lets_others_measure() {
+fn a_stopped_process_lets_others_measure() {
     let shell = "set -m; \"$@\"; echo back in the shell; read line; fg >/dev/null; echo status $?";
     let queue = BenchQueue::private();
     let mut pty = Pty::explorer(Start::default().through(shell).queue(&queue));

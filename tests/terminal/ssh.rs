@@ -234,7 +234,7 @@ fn only_term_crosses_by_itself() {
     let mut pty = Pty::explorer(local(server.explorer("tutorial")));
     ends(&mut pty);
     assert!(pty.bytes().is_ascii(), "LANG does not cross");
-    assert!(pty.occurrences(b"8;5;") > 0, "TERM tells of 256 colours");
+    assert!(pty.occurrences(b"8;5;") > 0, "TERM names 256 colours");
     assert_eq!(pty.occurrences(b"8;2;"), 0, "COLORTERM does not cross");
 
     let server = Server::start("SetEnv LANG=C.UTF-8 COLORTERM=truecolor\n");

@@ -485,7 +485,7 @@ mod tests {
         let [t, h, e, d] = ['t', 'h', 'e', 'd'].map(|letter| place(&lines, letter));
         assert!(e.0 < h.0 && h.0 < t.0, "{lines:#?}");
         assert!(e.1 < h.1 && h.1 < t.1, "{lines:#?}");
-        // Who has no right answer stands at the end.
+        // A method without a right answer comes last.
         assert!(t.0 <= d.0, "{lines:#?}");
         let whole = lines.join("\n");
         for words in ["t 12/0 %", "h 0.3/0 %", "e 0 %", "d 100/0 %", "*e exact"] {

@@ -106,7 +106,7 @@ fn pixels(plan: &Plan) -> PlanLine {
     } else {
         "the camera, the question or most of the picture is new"
     };
-    PlanLine::without("pixels anew", kept, all, because)
+    PlanLine::without("pixels redrawn", kept, all, because)
 }
 
 fn rays(plan: &Plan) -> PlanLine {

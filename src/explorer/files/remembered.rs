@@ -44,7 +44,7 @@ pub(crate) fn remember(workplace: &Workplace, chosen: &[Setting]) {
         .map(|(name, value)| format!("{name} {value}\n"))
         .collect();
     let text = lines.concat();
-    // Who can't have it remembered chooses again: nothing is lost.
+    // If it cannot be remembered, the person chooses again: nothing is lost.
     if let Some(folder) = path.parent() {
         let _ = fs::create_dir_all(folder);
     }

@@ -7,7 +7,7 @@ pub(super) fn source(language: SourceLanguage) -> Result<String, String> {
         SourceLanguage::C => Ok(include_str!("exact.c").to_owned()),
         SourceLanguage::Rust => Ok(include_str!("exact.txt").to_owned()),
         SourceLanguage::Glsl | SourceLanguage::Wgsl => Err(
-            "exact: its stages take bounds and whole numbers that shaders have no use for; c and rust have the first"
+            "exact: its stages need bounds and whole numbers that shaders do not have; expected --lang c or rust, which print the first stage"
                 .to_owned(),
         ),
     }

@@ -206,7 +206,9 @@ pub fn source(method: Method, language: SourceLanguage) -> Result<String, String
         return exact::source(language);
     }
     if method == Method::Double && language == SourceLanguage::Wgsl {
-        return Err("double: WGSL has no numbers of 64 bits; glsl, c and rust have".to_owned());
+        return Err(
+            "double: WGSL has no 64-bit numbers; expected --lang glsl, c or rust".to_owned(),
+        );
     }
     let wide = method == Method::Double;
     let writer = Writer { language, wide };

@@ -13,7 +13,7 @@ use crate::method::tape::Operation;
 use crate::method::truth::Truth;
 use crate::text::Glyphs;
 
-/// Steps keep their numbers in print; whoever shows them spells them.
+/// Steps keep their numbers in print; the caller that shows them spells them.
 const GLYPHS: Glyphs = Glyphs::Unicode;
 
 /// The steps of stage 1, a step for each stage that was asked after it, and the answer.

@@ -41,7 +41,7 @@ pub(super) fn compile(
     Ok(builder.finish(inputs, answer, signature))
 }
 
-/// Global variables start anew for each ray.
+/// Global variables get their first values again for each ray.
 fn globals(builder: &mut Builder<'_>) -> Result<(), RoutineError> {
     let module = &builder.parsed.module;
     for (handle, global) in module.global_variables.iter() {
