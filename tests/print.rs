@@ -106,6 +106,45 @@ fn a_pixel_is_told_in_the_words_of_the_panel() {
 }
 
 #[test]
+fn a_pixel_is_also_data_and_a_part_of_a_document() {
+    let pixel = ["print", "tutorial", "--pixel", "20,20"];
+    let with = |more: &[&str]| text(&[&pixel[..], more].concat());
+    let json: serde_json::Value = serde_json::from_str(&with(&["--format", "json"])).unwrap();
+    assert_eq!(json["pixel"], serde_json::json!([20, 20]));
+    assert_eq!(
+        json["sphere"]["center"],
+        serde_json::json!([20.0, 20.0, 20.0])
+    );
+    assert_eq!(
+        (&json["lens"], &json["class"]),
+        (&"mathematics".into(), &"secant".into())
+    );
+    let steps = json["steps"].as_array().unwrap();
+    let step = |name: &str| steps.iter().find(|step| step["name"] == name).unwrap();
+    let delta = &step("Δ")["equations"][0];
+    assert_eq!(delta["formula"], "Δ = B² − 4AC");
+    let result = delta["links"].as_array().unwrap().last().unwrap();
+    assert_eq!(
+        (&result["sign"], &result["text"]),
+        (&"=".into(), &"400".into())
+    );
+    // The machine's sheet, and every line of the text is in the document, but for its reasons and how they are broken.
+    let machine = with(&["--format", "json", "--method", "textbook"]);
+    assert!(machine.contains("\"lens\": \"machine\"") && machine.contains("\"→\""));
+    let markdown = with(&["--format", "markdown"]);
+    for part in [
+        "### A\n",
+        "0^2 + 0^2 + 1^2 = 1\n",
+        "```text\nfloat A = ",
+        "What multiplies t^2",
+    ] {
+        assert!(markdown.contains(part), "{part}: {markdown}");
+    }
+    let refused = run(&["print", "tutorial", "--format", "json"]);
+    assert_eq!(refused.status.code(), Some(2));
+}
+
+#[test]
 fn what_is_asked_wrongly_is_told_in_a_sentence() {
     for (arguments, status, sentence) in [
         (&["print"][..], 2, "<SCENE>"),

@@ -8,17 +8,20 @@ use clap::Args;
 use crossterm::terminal::window_size;
 use ratatui::buffer::Buffer;
 use ratatui::layout::Rect;
+use serde::Serialize;
 
 use super::appearance::{Color, ColorChoice, default_style};
 use super::lens::LensFlag;
 use super::progress::Progress;
+use super::solve::{RayOut, SphereOut};
 use super::{Failure, MethodName, Outcome, aspect, choice, method_name, write_out, write_picture};
-use crate::explain::{self, Digits, Drawn, Lens, Reading};
+use crate::explain::{self, Digits, Drawn, Lens, Reading, Step, StepData};
 use crate::explorer::{self, Explorer, Options, Palette, Panel, Setting};
 use crate::method::Method;
 use crate::render::{
     AnsiColor, CELL_ASPECT, Cell, ColorDepth, Frame, Image, Look, Style, View, fit,
 };
+use crate::report::{self, Format};
 use crate::scene::{PixelShape, Rays, Scene, Size};
 use crate::terminal::Capability;
 use crate::text::Glyphs;
@@ -74,7 +77,14 @@ pub(super) struct Print {
     /// The whole derivation of that pixel, step by step
     #[arg(long, requires = "pixel")]
     steps: bool,
+
+    /// How that pixel is written; json and markdown always have the whole derivation
+    #[arg(long, requires = "pixel", conflicts_with = "svg", value_parser = choice(&FORMATS, Format::name), default_value = Format::Text.name())]
+    format: Format,
 }
+
+/// How a pixel can be written.
+const FORMATS: [Format; 3] = [Format::Text, Format::Json, Format::Markdown];
 
 impl Print {
     /// Through which lens the pixel is looked at.
@@ -159,8 +169,8 @@ fn text(arguments: &Print) -> Result<String, Failure> {
                     (exact, wrong)
                 }
             };
-            let text = if arguments.steps {
-                let glyphs = capability.glyphs;
+            let glyphs = capability.glyphs;
+            let steps = || {
                 let look = Look {
                     style,
                     depth: ColorDepth::None,
@@ -168,6 +178,24 @@ fn text(arguments: &Print) -> Result<String, Failure> {
                     coarse: false,
                 };
                 steps(&scene, &rays, method, (lens, &reading), (view, look))
+            };
+            match arguments.format {
+                Format::Json => {
+                    let picture = (scene.name.as_str(), size);
+                    return Ok(json(picture, (lens, &reading), wrong, &steps()));
+                }
+                Format::Markdown => {
+                    let title = title((lens, &reading), size);
+                    let report = explain::sheet_report(&title, &steps(), DEFAULT_ROOM.0 as usize);
+                    return Ok(glyphs.spell(&report.markdown()));
+                }
+                Format::Text | Format::Csv => {}
+            }
+            let text = if arguments.steps {
+                match steps() {
+                    none if none.is_empty() => "The scene has no spheres.\n".into(),
+                    steps => explain::sheet_text(&steps, DEFAULT_ROOM.0 as usize),
+                }
             } else {
                 panel(lens, &reading)
             };
@@ -250,16 +278,57 @@ fn steps(
     method: Method,
     (lens, reading): (Lens, &Reading),
     (view, look): (View, Look),
-) -> String {
+) -> Vec<Step> {
     let frame = rendered(scene, rays, method, view);
     let mut image = Image::new();
     image.draw(&frame, scene, look);
     let drawn = Drawn::at(reading.pixel, &frame, &image, look.style);
-    let steps = explain::sheet(lens, reading, Some(scene), Some(rays), Some(&drawn));
-    if steps.is_empty() {
-        return "The scene has no spheres.\n".into();
-    }
-    explain::sheet_text(&steps, DEFAULT_ROOM.0 as usize)
+    explain::sheet(lens, reading, Some(scene), Some(rays), Some(&drawn))
+}
+
+/// A pixel and its sheet, as programs read it.
+#[derive(Serialize)]
+struct PixelJson<'a> {
+    rayscope: &'static str,
+    scene: &'a str,
+    size: [u32; 2],
+    pixel: [u32; 2],
+    lens: &'static str,
+    method: &'static str,
+    ray: RayOut,
+    spheres: usize,
+    /// The number of the sphere that is shown, from 1, and the sphere; none in an empty scene.
+    number: Option<usize>,
+    sphere: Option<SphereOut>,
+    class: Option<&'static str>,
+    /// The sentence that says what the chosen method gets wrong here.
+    wrong: Option<String>,
+    steps: Vec<StepData<'a>>,
+}
+
+/// The object of a pixel; through the lens `mathematics` its method is `exact`.
+fn json(
+    (scene, size): (&str, Size),
+    (lens, reading): (Lens, &Reading),
+    wrong: Option<String>,
+    steps: &[Step],
+) -> String {
+    let subject = reading.subject.as_ref();
+    report::json(&PixelJson {
+        rayscope: env!("CARGO_PKG_VERSION"),
+        scene,
+        size: [size.width, size.height],
+        pixel: reading.pixel.into(),
+        lens: lens.name(),
+        method: reading.method.name(),
+        ray: RayOut::of(&reading.ray),
+        spheres: reading.spheres,
+        number: subject.map(|subject| subject.body + 1),
+        sphere: subject.map(|subject| SphereOut::of(&subject.sphere)),
+        class: subject.map(|subject| subject.solution.class.name()),
+        wrong,
+        steps: steps.iter().map(StepData::of).collect(),
+    })
 }
 
 /// The picture as text, with escape sequences for its colours if there are any.

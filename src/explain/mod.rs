@@ -42,8 +42,8 @@ pub use plan::{
 };
 pub use question::{Choice, Judgement, StepQuestion};
 pub use sheet::{
-    Drawn, Equation, LedgerEntry, Link, SheetLook, Step, question_lines, sheet, sheet_lines,
-    sheet_text, step_lines,
+    Drawn, Equation, LedgerEntry, Link, SheetLook, Step, StepData, question_lines, sheet,
+    sheet_lines, sheet_report, sheet_text, step_lines,
 };
 pub use worksheet::Worksheet;
 

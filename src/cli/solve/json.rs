@@ -49,14 +49,8 @@ impl<'a> SolveJson<'a> {
         let named = |measured: &'a Measured| (!trace.method.is_routine()).then_some(measured);
         let AnswerJson { class, near, far } = AnswerJson::new(solution);
         Self {
-            ray: RayOut {
-                origin: ray.origin.to_array(),
-                direction: ray.direction.to_array(),
-            },
-            sphere: SphereOut {
-                center: sphere.center.to_array(),
-                radius: sphere.radius,
-            },
+            ray: RayOut::of(ray),
+            sphere: SphereOut::of(sphere),
             method: trace.method.name(),
             class,
             near,
@@ -83,16 +77,36 @@ impl<'a> SolveJson<'a> {
     }
 }
 
+/// A ray as programs read it.
 #[derive(Serialize)]
-struct RayOut {
+pub(in crate::cli) struct RayOut {
     origin: [f32; 3],
     direction: [f32; 3],
 }
 
+/// A sphere as programs read it.
 #[derive(Serialize)]
-struct SphereOut {
+pub(in crate::cli) struct SphereOut {
     center: [f32; 3],
     radius: f32,
+}
+
+impl RayOut {
+    pub fn of(ray: &Ray) -> Self {
+        Self {
+            origin: ray.origin.to_array(),
+            direction: ray.direction.to_array(),
+        }
+    }
+}
+
+impl SphereOut {
+    pub fn of(sphere: &Sphere) -> Self {
+        Self {
+            center: sphere.center.to_array(),
+            radius: sphere.radius,
+        }
+    }
 }
 
 #[derive(Serialize)]

@@ -7,6 +7,8 @@ mod single;
 
 use std::path::PathBuf;
 
+pub(super) use json::{RayOut, SphereOut};
+
 use super::failure::{DONE, INVALID};
 use super::lens::LensFlag;
 use super::{Failure, MethodName, Outcome, method_name, write_out};

@@ -4,6 +4,7 @@
 //! Through the lens `mathematics` the lines are the tutorial's, worked exactly; through `machine` they
 //! are the method's own trace, between the steps of the camera and those of the picture.
 
+mod data;
 mod machine;
 mod mathematics;
 mod quadratic;
@@ -11,6 +12,7 @@ mod ray;
 mod seen;
 mod text;
 
+pub use data::{StepData, sheet_report};
 pub(super) use quadratic::WorkedQuadratic;
 pub use text::{SheetLook, question_lines, sheet_lines, sheet_text, step_lines};
 pub(super) use text::{equation_lines, room_for_signs};

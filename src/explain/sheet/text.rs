@@ -133,6 +133,16 @@ pub fn sheet_text(steps: &[Step], width: usize) -> String {
     out
 }
 
+/// What is written of a step, without its reason.
+pub(super) fn step_written(step: &Step, width: usize) -> Vec<String> {
+    let lines = block(step, width, Detail::Written, false);
+    let text = |line: &Line| {
+        let text = line.text();
+        text.strip_prefix(' ').unwrap_or(&text).to_owned()
+    };
+    lines.iter().map(text).collect()
+}
+
 /// A step whose results are kept back.
 fn hidden_block(step: &Step, width: usize) -> Vec<Line> {
     let mut out = Vec::new();
