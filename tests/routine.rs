@@ -471,3 +471,56 @@ fn what_can_not_be_typed_is_refused_in_a_sentence() {
     let found = screen(&mut explorer);
     assert!(found.contains("at most 64 KiB"), "{found}");
 }
+
+#[test]
+fn a_routine_is_asked_everywhere_that_a_method_is_named() {
+    let own = "tests/routines/textbook.glsl";
+    let problem = ["--ray", "20,20,0,0,0,1", "--sphere", "20,20,20,10"];
+    for (line, flags) in [
+        ("print tutorial --pixel 20,20", &[][..]),
+        ("print tutorial --style tutorial", &[]),
+        ("solve", &problem),
+        ("stress --quick --dial distance", &[]),
+        ("bench --quick --family typical", &[]),
+        ("plan tutorial", &[]),
+    ] {
+        let words: Vec<_> = line.split(' ').chain(flags.iter().copied()).collect();
+        let asked = [&words[..], &["--method", own]].concat();
+        let (found, error, status) = rayscope(&asked);
+        assert_eq!(status, 0, "{line}: {error}");
+        let pictures = found.matches("++").count() == 317;
+        assert!(
+            pictures || found.contains("textbook.glsl"),
+            "{line}: {found}"
+        );
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let text = fs::read_to_string(own).unwrap();
+    fs::write(folder.path().join("mine.glsl"), &text).unwrap();
+    let (mut explorer, _rung) = explorer_in(folder.path());
+    for (keys, shown) in [
+        (":method mine.glsl\n", "machine   mine.glsl"),
+        (":method exact\nm", "machine   mine.glsl"),
+        (":method kahan\n:compare mine.glsl\n", "mine.glsl"),
+        (":method mine.glsl\n:dial distance 4\n", "mine.glsl"),
+        (":dial distance 0\n%", "mine.glsl"),
+    ] {
+        let found = types(&mut explorer, keys);
+        assert!(found.contains(shown), "{keys}: {found}");
+    }
+    let page = "title = \"own\"\n[[page]]\nscene = \"tutorial\"\nmethod = \"mine.glsl\"\nlens = \"machine\"\ntext = \"One.\"";
+    let chapter = folder.path().join("own.toml");
+    fs::write(&chapter, page).unwrap();
+    let chapters = rayscope::explorer::tour::load(&chapter).unwrap();
+    explorer.start_tour(chapters, 0, 0);
+    let found = screen(&mut explorer);
+    assert!(found.contains("machine   mine.glsl"), "{found}");
+    fs::write(&chapter, page.replace("mine", "none")).unwrap();
+    let refused = rayscope::explorer::tour::load(&chapter)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        refused.contains("method: ") && refused.contains("no such file"),
+        "{refused}"
+    );
+}

@@ -14,7 +14,7 @@ use crate::method::Method;
 pub(crate) enum RoutineText {}
 
 impl RoutineText {
-    pub(crate) fn of_file(name: &str, _: &Path) -> Result<String, String> {
+    pub(crate) fn of_file(name: &str, _: &Path, _: Method) -> Result<String, String> {
         Err(format!("{name}: this program was built without routines"))
     }
 

@@ -24,11 +24,15 @@ pub(crate) struct RoutineText {
 }
 
 impl RoutineText {
-    /// The text to begin with: that of the file, or the tutorial's function where there is none yet.
-    pub(crate) fn of_file(name: &str, path: &Path) -> Result<String, String> {
+    /// The text to begin with: that of the file; where there is none yet, that of the chosen method if it has the
+    /// name, as on a page of the tour, or the tutorial's function.
+    pub(crate) fn of_file(name: &str, path: &Path, chosen: Method) -> Result<String, String> {
         let language = language(name)?;
         if path.symlink_metadata().is_err() {
-            return Ok(template(language).to_owned());
+            return Ok(match chosen {
+                Method::Routine(id) if id.name() == name => id.get().text.clone(),
+                _ => template(language).to_owned(),
+            });
         }
         RoutineId::text_of(path).map_err(|error| error.to_string())
     }
@@ -122,5 +126,5 @@ impl RoutineText {
 }
 
 fn language(name: &str) -> Result<Language, String> {
-    Language::of(name).ok_or_else(|| format!("{name}: a routine's name ends in .glsl or .wgsl"))
+    Language::of(name).ok_or_else(|| format!("{name}: expected a file that ends in .glsl or .wgsl"))
 }

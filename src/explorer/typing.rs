@@ -33,7 +33,7 @@ fn opened(state: &mut State, name: &str) -> Result<OpenText, String> {
     let name = named(state, name)?;
     let path = state.workplace.reach(&name)?;
     let file = Stamp::of(&path);
-    let known = RoutineText::of_file(&name, &path)?;
+    let known = RoutineText::of_file(&name, &path, state.at.method)?;
     let kept = state.workplace.kept_text(&path);
     let kept = kept.and_then(|kept| fs::read_to_string(kept).ok());
     if kept.is_some() {
@@ -56,13 +56,9 @@ fn named(state: &State, name: &str) -> Result<String, String> {
         let ending = if has_ending { "" } else { ".glsl" };
         return Ok(format!("{name}{ending}"));
     }
-    let chosen = state
-        .routines
-        .iter()
-        .find(|own| own.method == state.at.method);
-    chosen
-        .map(|own| own.name.clone())
-        .ok_or_else(|| "routine: expected a name after it, such as mine.glsl".to_owned())
+    let chosen = state.at.method;
+    let own = chosen.is_routine().then(|| chosen.name().to_owned());
+    own.ok_or_else(|| "routine: expected a name after it, such as mine.glsl".to_owned())
 }
 
 /// Draws by the text as it is now; with an error in it, the last good one stays.
@@ -185,7 +181,7 @@ fn to_edit(state: &State, name: &str) -> Result<(String, PathBuf), String> {
     if !state.workplace.starts_programs() {
         return Err("edit: no program is started here; `:routine` opens the text".to_owned());
     }
-    let text = RoutineText::of_file(&name, &path)?;
+    let text = RoutineText::of_file(&name, &path, state.at.method)?;
     match disk::save(&path, &text, Over::Nothing) {
         Ok(_) | Err(Unsaved::Occupied) => Ok((name, path)),
         Err(Unsaved::Failed(sentence)) => Err(sentence),

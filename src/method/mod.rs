@@ -164,6 +164,11 @@ impl Method {
         }
     }
 
+    /// The routine in a text that came with the program, under that name.
+    pub fn with_text(name: &str, text: &str) -> Result<Self, FileError> {
+        RoutineId::with_text(name, text).map(Self::Routine)
+    }
+
     /// How this method comes to its answer, step by step, beside what is exact.
     pub fn trace(self, ray: &Ray, sphere: &Sphere) -> Trace {
         Trace::new(self, ray, sphere)

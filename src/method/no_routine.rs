@@ -20,6 +20,11 @@ impl RoutineId {
         ))
     }
 
+    /// Why a text can't be read.
+    pub(super) fn with_text(name: &str, _: &str) -> Result<Self, FileError> {
+        Self::load(name, Path::new(name))
+    }
+
     /// The name that it was learnt under.
     pub fn name(self) -> &'static str {
         match self {}

@@ -64,12 +64,24 @@ const FILE: Expected = Expected {
 impl RoutineId {
     /// Reads and compiles a file, under that name.
     pub(super) fn load(name: &str, path: &Path) -> Result<Self, FileError> {
-        let Some(language) = Language::of(name) else {
-            let problem = "expected a file that ends in .glsl or .wgsl";
-            return Err(FileError::whole(path, problem));
-        };
-        let text = Self::text_of(path)?;
-        Self::learn(&path.to_string_lossy(), name, &text, language).map_err(|error| FileError {
+        let language = language(name, path)?;
+        Self::learn_from(path, name, &Self::text_of(path)?, language)
+    }
+
+    /// Compiles a text that came with the program; its key is no path.
+    pub(super) fn with_text(name: &str, text: &str) -> Result<Self, FileError> {
+        let key = format!("{name} of rayscope");
+        let key = Path::new(&key);
+        Self::learn_from(key, name, text, language(name, key)?)
+    }
+
+    fn learn_from(
+        path: &Path,
+        name: &str,
+        text: &str,
+        language: Language,
+    ) -> Result<Self, FileError> {
+        Self::learn(&path.to_string_lossy(), name, text, language).map_err(|error| FileError {
             position: Some(TextPosition {
                 line: error.line,
                 column: error.column,
@@ -203,6 +215,12 @@ impl RoutineId {
             }
         });
     }
+}
+
+/// What a file of that name is written in.
+fn language(name: &str, path: &Path) -> Result<Language, FileError> {
+    let problem = "expected a file that ends in .glsl or .wgsl";
+    Language::of(name).ok_or_else(|| FileError::whole(path, problem))
 }
 
 /// A routine with room to run it.

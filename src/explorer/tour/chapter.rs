@@ -21,6 +21,7 @@ use crate::explorer::edit::field;
 use crate::explorer::key::Key;
 use crate::explorer::setting::{self, Setting, SettingRow};
 use crate::explorer::viewpoint::Viewpoint;
+use crate::method::Method;
 use crate::scene::{Builtin, Scene, Size, Source, value};
 
 /// A walk through some pages, in their order.
@@ -118,11 +119,19 @@ const BUILTIN: &[(&str, &str)] = &[
         "12-above-the-ground.toml",
         include_str!("chapters/12-above-the-ground.toml"),
     ),
+    #[cfg(feature = "routine")]
     (
-        "13-what-exact-costs.toml",
-        include_str!("chapters/13-what-exact-costs.toml"),
+        "13-your-turn.toml",
+        include_str!("chapters/13-your-turn.toml"),
+    ),
+    (
+        "14-what-exact-costs.toml",
+        include_str!("chapters/14-what-exact-costs.toml"),
     ),
 ];
+
+/// The routines that their pages name.
+const ROUTINES: &[(&str, &str)] = &[("mine.glsl", include_str!("chapters/mine.glsl"))];
 
 /// The tour that comes with the program.
 pub fn builtin() -> Arc<[Chapter]> {
@@ -342,7 +351,8 @@ impl PageFile {
         ];
         for (name, word) in named {
             if let Some(word) = word {
-                setup.at.put(&read_setting(name, word, word.get_ref())?);
+                let setting = read_setting(name, word, word.get_ref())?;
+                setup.at.put(&with_routine(setting, word, folder)?);
             }
         }
         setup.has_style |= self.style.is_some();
@@ -440,6 +450,27 @@ fn read_setting<T>(name: &str, place: &Spanned<T>, text: &str) -> Result<Setting
     let setting = row.map(|row| setting::parse(row, text));
     let setting = setting.unwrap_or_else(|| Err(format!("{name}: expected a setting")));
     setting.map_err(|problem| PageFault::at(place, problem))
+}
+
+/// A method that is a routine's file, which lies in `folder` or came with the program, as the routine itself.
+fn with_routine(
+    setting: Setting,
+    place: &Spanned<String>,
+    folder: Option<&Path>,
+) -> Result<Setting, PageFault> {
+    let Setting::Routine { name, beside } = setting else {
+        return Ok(setting);
+    };
+    let text = ROUTINES.iter().find(|(known, _)| *known == name);
+    let method = match (folder, text) {
+        (None, Some((_, text))) => Method::with_text(&name, text),
+        (folder, _) => Method::load(&name, &folder.unwrap_or(Path::new("")).join(&name)),
+    };
+    match method {
+        Ok(method) if beside => Ok(Setting::Compare(method)),
+        Ok(method) => Ok(Setting::Method(method)),
+        Err(error) => Err(PageFault::at(place, format!("method: {error}"))),
+    }
 }
 
 /// A scene by what a page says of it: the text of a scene file, a built-in name, or a file.
