@@ -524,3 +524,29 @@ fn a_routine_is_asked_everywhere_that_a_method_is_named() {
         "{refused}"
     );
 }
+
+#[test]
+fn whether_a_bool_counts_what_lies_behind_the_eye_is_found_out_and_said() {
+    let head = "bool f(vec3 ro, vec3 rd, vec3 ce, float ra) {\n  vec3 o = ro - ce;\n  float b = dot(o, rd);\n  float D = b * b - dot(rd, rd) * (dot(o, o) - ra * ra);";
+    let line = learn("line.glsl", &format!("{head}\n  return D >= 0.0;\n}}"));
+    let before = learn(
+        "before.glsl",
+        &format!("{head}\n  return D >= 0.0 && b < 0.0;\n}}"),
+    );
+    assert!(
+        line.words().ends_with("behind the eye is a hit, too"),
+        "{}",
+        line.words()
+    );
+    assert!(
+        before.words().ends_with("behind the eye is no hit"),
+        "{}",
+        before.words()
+    );
+    let text = fs::read_to_string("tests/routines/whether.glsl").unwrap();
+    let (_folder, mut explorer, _rung) = explorer_with("mine.glsl", &text);
+    let found = screen(&mut explorer);
+    assert!(found.contains("A to Δ are those of double"), "{found}");
+    let (report, _, _) = rayscope(&["check", "tests/routines/whether.glsl"]);
+    assert!(report.contains("behind the eye"), "{report}");
+}

@@ -50,10 +50,9 @@ fn text(name: &str, id: crate::method::RoutineId, found: &RoutineCheck) -> Strin
         .map(|(name, role)| format!("{name} {role}"))
         .collect();
     let mut out = format!(
-        "{name}: {}, {}; {}\n  takes {}\n\n",
+        "{name}: {}, {}\n  takes {}\n\n",
         program.name(),
-        program.answers().words(),
-        program.no_hit().words(),
+        id.words(),
         roles.join(", ")
     );
     for slip in &found.slips {

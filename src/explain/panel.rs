@@ -21,7 +21,7 @@ use super::{
     vector,
 };
 use crate::method::trace::Measured;
-use crate::method::{Class, Place, Precision, Solution, Trace};
+use crate::method::{Class, Method, Place, Precision, Solution, Trace};
 use crate::text::{Glyphs, wrap};
 
 /// One line of a panel.
@@ -423,7 +423,7 @@ fn coefficient_lines(subject: &Subject, width: usize, digits: Digits) -> Vec<Lin
         ("C", "|p0−c|² − r²", c.c, &trace.c),
         ("Δ", "B² − 4AC", c.discriminant, &trace.discriminant),
     ];
-    let mut out = Vec::new();
+    let mut out = routine_lines(trace, width);
     for (label, formula, value, measured) in rows {
         let value = number(value, c.precision, digits);
         out.push(given(label, formula, &value));
@@ -433,6 +433,18 @@ fn coefficient_lines(subject: &Subject, width: usize, digits: Digits) -> Vec<Lin
         out.push(exact_line(Some(measured), width, spare));
     }
     out
+}
+
+/// What a routine answers, and whose coefficients these are: it names none of its own.
+fn routine_lines(trace: &Trace, width: usize) -> Vec<Line> {
+    let Method::Routine(id) = trace.method else {
+        return Vec::new();
+    };
+    let line = |spare| move |text| Line::new(spare).with(Role::Plain, text);
+    let words = wrap(&format!("It gives {}.", id.words()), width);
+    let whose = wrap("A to Δ are those of double:", width);
+    let words = words.into_iter().map(line(4));
+    words.chain(whose.into_iter().map(line(0))).collect()
 }
 
 /// What an operation gave.

@@ -35,6 +35,11 @@ impl RoutineId {
         match self {}
     }
 
+    /// What it answers, in words.
+    pub fn words(self) -> String {
+        match self {}
+    }
+
     pub(super) fn gives_one_at_most(self) -> bool {
         match self {}
     }

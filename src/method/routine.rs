@@ -9,6 +9,8 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, PoisonError, RwLock};
 
+use glam::Vec3;
+
 use super::batch::{Batch, Scalars, Vectors};
 use super::{Class, Place, Solution};
 use crate::door::{Expected, FileError, TextPosition};
@@ -180,6 +182,36 @@ impl RoutineId {
     /// What it answers.
     pub fn answers(self) -> AnswerKind {
         with_room::<1, _>(self, |room| room.routine.program.answers())
+    }
+
+    /// What it answers, and what is no hit to it, in words. Whether a bool counts spheres behind the eye is found out by asking.
+    pub fn words(self) -> String {
+        let routine = self.get();
+        let [answers, no_hit] = [
+            routine.program.answers().words(),
+            routine.program.no_hit().words(),
+        ];
+        let behind = match self.answers() {
+            AnswerKind::Whether if self.counts_behind() => {
+                "; a sphere behind the eye is a hit, too"
+            }
+            AnswerKind::Whether => "; a sphere behind the eye is no hit",
+            AnswerKind::Roots | AnswerKind::Visible => "",
+        };
+        format!("{answers}; {no_hit}{behind}")
+    }
+
+    /// Whether it hits a sphere that lies behind the eye, on the line itself.
+    fn counts_behind(self) -> bool {
+        let ray = Ray {
+            origin: Vec3::new(3.0, 0.0, 0.0),
+            direction: Vec3::X,
+        };
+        let sphere = Sphere {
+            center: Vec3::ZERO,
+            radius: 1.0,
+        };
+        self.solve(&ray, &sphere).class == Class::Hit
     }
 
     pub(super) fn gives_one_at_most(self) -> bool {
