@@ -547,6 +547,7 @@ fn whether_a_bool_counts_what_lies_behind_the_eye_is_found_out_and_said() {
     let (_folder, mut explorer, _rung) = explorer_with("mine.glsl", &text);
     let found = screen(&mut explorer);
     assert!(found.contains("A to Δ are those of double"), "{found}");
+    assert!(!found.contains("NaN"), "a bool gives no root: {found}");
     let (report, _, _) = rayscope(&["check", "tests/routines/whether.glsl"]);
     assert!(report.contains("behind the eye"), "{report}");
 }

@@ -556,12 +556,22 @@ fn verdict_lines(subject: &Subject, width: usize, digits: Digits) -> Vec<Line> {
         out.extend(Line::wrapped(&wrong, width, Role::Warning, 0));
     }
     if class.meets() {
-        let [near, far] = [near, far].map(|t| number(t.into(), Precision::Binary32, digits));
-        let exact = |m: &Option<Measured>| exact_line(m.as_ref(), width, 4);
-        out.push(given("near", "(−B−√Δ)/2A", &near));
-        out.push(exact(&subject.trace.near));
-        out.push(given("far", "(−B+√Δ)/2A", &far));
-        out.push(exact(&subject.trace.far));
+        let is_routine = subject.trace.method.is_routine();
+        for (label, formula, t, exact) in [
+            ("near", "(−B−√Δ)/2A", near, &subject.trace.near),
+            ("far", "(−B+√Δ)/2A", far, &subject.trace.far),
+        ] {
+            // A routine has formulas of its own, and may give one root, or none.
+            let formula = if is_routine { "" } else { formula };
+            if class != Class::Hit || !t.is_nan() {
+                let value = number(t.into(), Precision::Binary32, digits);
+                out.push(given(label, formula, &value));
+                out.push(exact_line(exact.as_ref(), width, 4));
+            }
+        }
+    }
+    if is_bare_hit(&subject.solution) {
+        return out;
     }
     let words = match subject.solution.place() {
         Some(Place::Hit) => "hit: in front of the eye",
@@ -571,6 +581,11 @@ fn verdict_lines(subject: &Subject, width: usize, digits: Digits) -> Vec<Line> {
     };
     out.push(Line::new(0).with(Role::Plain, words));
     out
+}
+
+/// Whether it is no more than a hit: nothing is said of where.
+fn is_bare_hit(solution: &Solution) -> bool {
+    solution.class == Class::Hit && solution.near.is_nan()
 }
 
 /// Which sphere the method takes for the one in front, and what it says wrongly of spheres that are not
@@ -606,7 +621,7 @@ const fn fewer(digits: Digits) -> Digits {
 }
 
 fn sight_lines(subject: &Subject, width: usize, digits: Digits) -> Vec<Line> {
-    let Some(sight) = subject.sight else {
+    let Some(sight) = subject.sight.filter(|_| !is_bare_hit(&subject.solution)) else {
         return Vec::new();
     };
     let in_room = |v, digits| columned_vector(v, width.saturating_sub(LABEL_WIDTH), digits);

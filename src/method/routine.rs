@@ -187,18 +187,13 @@ impl RoutineId {
     /// What it answers, and what is no hit to it, in words. Whether a bool counts spheres behind the eye is found out by asking.
     pub fn words(self) -> String {
         let routine = self.get();
-        let [answers, no_hit] = [
-            routine.program.answers().words(),
-            routine.program.no_hit().words(),
-        ];
-        let behind = match self.answers() {
-            AnswerKind::Whether if self.counts_behind() => {
-                "; a sphere behind the eye is a hit, too"
-            }
-            AnswerKind::Whether => "; a sphere behind the eye is no hit",
-            AnswerKind::Roots | AnswerKind::Visible => "",
+        let answers = routine.program.answers();
+        let beside = match answers {
+            AnswerKind::Whether if self.counts_behind() => "a sphere behind the eye is a hit, too",
+            AnswerKind::Whether => "a sphere behind the eye is no hit",
+            AnswerKind::Roots | AnswerKind::Visible => routine.program.no_hit().words(),
         };
-        format!("{answers}; {no_hit}{behind}")
+        format!("{}; {beside}", answers.words())
     }
 
     /// Whether it hits a sphere that lies behind the eye, on the line itself.
