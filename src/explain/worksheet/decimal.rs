@@ -65,6 +65,25 @@ impl DecimalFraction {
         text
     }
 
+    /// The sum, unless it is too long.
+    pub fn plus(self, other: Self) -> Option<Self> {
+        let places = self.places.max(other.places);
+        let scaled = |x: Self| {
+            let factor = 10_i128.checked_pow(places - x.places)?;
+            x.units.checked_mul(factor)
+        };
+        let units = scaled(self)?.checked_add(scaled(other)?)?;
+        Some(Self { units, places })
+    }
+
+    /// The product, unless it is too long.
+    pub fn times(self, other: Self) -> Option<Self> {
+        Some(Self {
+            units: self.units.checked_mul(other.units)?,
+            places: self.places.checked_add(other.places)?,
+        })
+    }
+
     /// `= 2.5`, or rounded, `≈ 2.5123`, where it is longer than anybody wants to read.
     pub fn equation(self) -> String {
         if self.digits() <= MOST_DIGITS {

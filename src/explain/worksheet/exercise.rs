@@ -156,7 +156,13 @@ fn along(question: &PaperQuestion) -> Vec<Task> {
     let target = question.center[axis];
     let way = target.units - question.origin[axis].units;
     let t = scaled_quotient(way, target.places, d[axis]);
-    let points = [1, 2, 5].map(|t| format!("p({t}) = {}", at(question, f64::from(t), 7)));
+    let points = [1, 2, 5].map(|t| {
+        let whole = WrittenNumber::Exact(DecimalFraction {
+            units: t,
+            places: 0,
+        });
+        format!("p({t}) {}", at(question, whole, 7))
+    });
     vec![
         Task::new(
             "Where is the ray at t = 1, at t = 2 and at t = 5?",
@@ -169,7 +175,7 @@ fn along(question: &PaperQuestion) -> Vec<Task> {
                 target.text()
             ),
             3,
-            format!("t {},  p = {}", t.equation(), visible_point(question, t)),
+            format!("t {},  p {}", t.equation(), visible_point(question, t)),
         ),
         Task::new(
             "Which points of this line have t < 0, and does the eye see them?",
@@ -186,7 +192,7 @@ fn scaled_quotient(units: i128, places: u32, by: DecimalFraction) -> WrittenNumb
     WrittenNumber::quotient(sign * units * up, sign * by.units * down)
 }
 
-/// The point p0 + t·d of the sphere, in as many digits as its place on the sphere needs.
+/// The point p0 + t·d of the sphere with its sign, in as many digits as its place on the sphere needs.
 fn visible_point(question: &PaperQuestion, t: WrittenNumber) -> String {
     let greatest = question
         .center
@@ -195,15 +201,29 @@ fn visible_point(question: &PaperQuestion, t: WrittenNumber) -> String {
         .fold(0.0, f64::max);
     let times = (greatest / question.radius.value()) as u64;
     let digits = 5 + times.checked_ilog10().unwrap_or(0);
-    at(question, t.value(), digits.min(10) as usize)
+    at(question, t, digits.min(10) as usize)
 }
 
-/// The point p0 + t·d in at most this many digits.
-fn at(question: &PaperQuestion, t: f64, digits: usize) -> String {
-    let point = [0, 1, 2].map(|i| question.origin[i].value() + t * question.direction[i].value());
+/// The point p0 + t·d in at most this many digits: `= (1, 2, 3)`, or `≈` if one of them is rounded.
+fn at(question: &PaperQuestion, t: WrittenNumber, digits: usize) -> String {
+    let way = t.value();
+    let point = [0, 1, 2].map(|i| question.origin[i].value() + way * question.direction[i].value());
     // A sum of decimals is off in its last binary digit; nobody writes that down.
     let short = point.map(|x| rounded_to((x * 1e9).round() / 1e9, digits));
-    format!("({})", short.join(", "))
+    let is_exact = |i: usize| {
+        let WrittenNumber::Exact(t) = t else {
+            return false;
+        };
+        let moved = t.times(question.direction[i]);
+        let sum = moved.and_then(|moved| moved.plus(question.origin[i]));
+        sum.is_some_and(|sum| sum.text() == short[i])
+    };
+    let sign = if [0, 1, 2].into_iter().all(is_exact) {
+        "="
+    } else {
+        "≈"
+    };
+    format!("{sign} ({})", short.join(", "))
 }
 
 fn one(question: &PaperQuestion, answers: &PaperAnswers) -> Vec<Task> {
@@ -273,7 +293,7 @@ fn one(question: &PaperQuestion, answers: &PaperAnswers) -> Vec<Task> {
                 Task::new(
                     "Which root is seen, and at which point p of the sphere?",
                     2,
-                    format!("the {which} one, {why}: p = {}", visible_point(question, t)),
+                    format!("the {which} one, {why}: p {}", visible_point(question, t)),
                 ),
                 check(question, answers.class),
             ]
@@ -357,7 +377,7 @@ fn two(first: &Solved, second: &Solved) -> Option<Vec<Task>> {
             "Which of the two is seen, at which t and where?",
             3,
             format!(
-                "sphere {}, whose root is the least above 0: t {}, p = {}",
+                "sphere {}, whose root is the least above 0: t {}, p {}",
                 seen.0 + 1,
                 t.equation(),
                 visible_point(&seen.1, t)
