@@ -67,7 +67,7 @@ fn a_student_has_a_first_lesson() {
     pty.sends("et");
     pty.waits_to_show("leave the tour");
     pty.sends("\r");
-    pty.waits_to_show("1/13: ");
+    pty.waits_to_show(": a circle and a line, page 1/");
     pty.sends("f");
     pty.waits_to_show("220.84");
     pty.sends("q");
