@@ -69,6 +69,10 @@ fn read_glsl(source: &RoutineSource) -> Result<Module, RoutineError> {
                         {
                             "a number such as 2.0lf is not read here; write double(2.0)".to_owned()
                         }
+                        glsl::ErrorKind::InvalidToken(..) => {
+                            let found = error.meta.to_range().and_then(|at| source.code.get(at));
+                            unexpected(&error.kind.to_string(), found.unwrap_or_default())
+                        }
                         kind => sentence(&kind.to_string()),
                     };
                     at(source, error.meta, problem)
@@ -98,6 +102,37 @@ fn invalid(source: &RoutineSource, error: &WithSpan<naga::valid::ValidationError
 
 fn at(source: &RoutineSource, span: Span, problem: String) -> RoutineError {
     source.error(span.to_range().map_or(0, |range| range.start), problem)
+}
+
+/// What the reader calls the signs that it expects, and the signs.
+const SIGNS: [(&str, &str); 13] = [
+    ("LeftParen", "("),
+    ("RightParen", ")"),
+    ("LeftBracket", "["),
+    ("RightBracket", "]"),
+    ("LeftBrace", "{"),
+    ("RightBrace", "}"),
+    ("Semicolon", "a semicolon"),
+    ("Comma", "a comma"),
+    ("Colon", ":"),
+    ("Dot", "a dot"),
+    ("Assign", "="),
+    ("Identifier", "a name"),
+    ("identifier", "a name"),
+];
+
+/// What was expected, in signs and not in the reader's names for them, and what is there.
+fn unexpected(message: &str, found: &str) -> String {
+    let expected = message.rsplit_once(", found ").map_or(message, |(e, _)| e);
+    let expected = SIGNS
+        .iter()
+        .fold(expected.to_owned(), |text, (name, sign)| {
+            text.replace(name, sign)
+        });
+    match found.trim() {
+        "" => sentence(&format!("{expected}, found the end of the text")),
+        found => sentence(&format!("{expected}, found {found}")),
+    }
 }
 
 /// What the reader says, as our sentences are: in one line, without capital or full stop.

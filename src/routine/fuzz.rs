@@ -213,6 +213,14 @@ fn what_can_not_be_told_is_refused_in_a_sentence_with_its_line() {
             "line 2: unknown variable: rad",
         ),
         (
+            "float x =\nfloat f(vec3 ro, vec3 rd, vec3 ce, float ra) { return ra; }",
+            "line 2: expected (, found f",
+        ),
+        (
+            "float f(vec3 ro, vec3 rd, vec3 ce, float ra) {\n  float x = ra return x;\n}",
+            "line 2: expected ",
+        ),
+        (
             "uniform float x; float f(vec3 ro, vec3 rd, vec3 ce, float ra) { return x; }",
             "line 1: ",
         ),
