@@ -184,8 +184,8 @@ fn the_tutorials_pixel_shows_its_numbers() {
 }
 
 #[test]
-fn screens_at_80_by_24_and_160_by_50() {
-    for (cols, rows) in [(80, 24), (160, 50)] {
+fn screens_at_80_by_24_100_by_30_and_160_by_50() {
+    for (cols, rows) in [(80, 24), (100, 30), (160, 50)] {
         for scene in ["tutorial", "trio"] {
             let screen = Person::opens(scene, cols, rows).screen();
             insta::assert_snapshot!(format!("{scene}_{cols}x{rows}"), screen);
