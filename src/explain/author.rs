@@ -39,7 +39,7 @@ fn filled(sentence: &str, worked: Option<&WorkedQuadratic>) -> Option<String> {
     Some(out + rest)
 }
 
-/// What stands before the first name in braces, the name, and what comes after.
+/// The text before the first name in braces, the name, and the text after it.
 fn placeholder(text: &str) -> Option<(&str, &str, &str)> {
     let (before, rest) = text.split_once('{')?;
     let (name, after) = rest.split_once('}')?;

@@ -370,7 +370,7 @@ impl Scratch {
     }
 }
 
-/// An estimate of so many bytes tells which of two orders is shorter.
+/// From this difference on, in bytes, the estimate decides which of two orders is written.
 const TOLD_APART: i64 = 100;
 /// About how many bytes it takes to go on elsewhere.
 const WAY: i64 = 5;
@@ -706,7 +706,7 @@ struct Step {
 /// The shortest way to another row.
 #[derive(Debug, Clone, Copy)]
 enum Rows {
-    /// So many line feeds, which leave the column.
+    /// Down by line feeds, which keep the column.
     Down(u16),
     /// The row by its number, from 0.
     To(u16),

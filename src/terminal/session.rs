@@ -409,7 +409,7 @@ impl Session {
 
     /// Gives the terminal to the person's editor, for this file, until that ends; or says why not.
     pub(super) fn edit(&mut self, path: &Path) -> io::Result<Result<(), String>> {
-        // Whoever was given this program in the place of a shell is not to come to one through an editor.
+        // A person who has this program in the place of a shell must not reach one through an editor.
         if !has_job_control() {
             return Ok(Err(
                 "edit: no shell started rayscope; `:routine` opens the text here.".into(),
