@@ -629,7 +629,7 @@ fn what_an_author_says_of_a_pixel_has_the_numbers_of_the_scene_as_it_is() {
         !saved.contains("317") && !saved.contains("8 across"),
         "{saved}"
     );
-    // Whoever predicts is told no number.
+    // While a person predicts, no number is shown.
     student.commands("open tutorial").presses("P N");
     assert!(!student.screen().contains("300"), "{}", student.screen());
 }
